@@ -7,6 +7,7 @@
 #include "core/model_folder.hpp"
 #include "gui/measured_agent.hpp"
 #include "gui/waiting.hpp"
+#include "style/look.hpp"
 #include "views/agent_table.hpp"
 #include "views/agreement_table.hpp"
 #include "views/counter_table.hpp"
@@ -14,6 +15,8 @@
 #include "widgets/rows.hpp"
 #include "widgets/text_label.hpp"
 
+#include <QApplication>
+#include <QFontMetrics>
 #include <QPushButton>
 #include <QTabBar>
 #include <algorithm>
@@ -95,6 +98,36 @@ TEST_F(Agents, TheRowThatWasChosenStaysChosenWhenOthersCome) {
     view.refresh(*frameOf({arm.now()}));
     EXPECT_EQ(view.saved()["agent"], "robot") << "nothing else is shown in its place";
     EXPECT_TRUE(says("It is not heard."));
+}
+
+TEST_F(Agents, HaveTheirStartStateAndRateInSightInASmallWindowWithLargeText) {
+    Look::apply(Theme::Light, 1.5, QStringLiteral("Open Sans"));
+    view.resize(800, 460);
+    MadeAgent robot = clusterNamed("ds402_dual_axis"), arm = clusterNamed("arm");
+    AgentFrame today = robot.now("running"), later = arm.now("running");
+    today.status.rate = 50;
+    today.status.epoch = 5'000'000;
+    later.status.epoch = 90'000'000'000;
+    view.refresh(*frameOf({today, later}));
+    QApplication::processEvents();
+    EXPECT_EQ(row<AgentTable>(0)[4], "00:00:05");
+    EXPECT_EQ(row<AgentTable>(1)[4], "1970-01-02 01:00:00") << "another day is said";
+    AgentView other;
+    other.resize(800, 460);
+    other.show();
+    other.refresh(*frameOf({today}));
+    QApplication::processEvents();
+    const auto& table = *other.findChild<AgentTable*>();
+    EXPECT_LE(table.columnViewportPosition(4) + table.columnWidth(4), table.viewport()->width());
+    int known = 0;
+    for (const auto* each : other.findChildren<TextLabel*>()) {
+        if (!each->isVisible() || !each->text().startsWith(QString::fromUtf8("running · ")))
+            continue;
+        ++known;
+        EXPECT_GE(each->width(), QFontMetrics{each->font()}.horizontalAdvance(each->text()));
+    }
+    EXPECT_EQ(known, 1);
+    Look::apply(Theme::Light, 1, QStringLiteral("Open Sans"));
 }
 
 TEST_F(Agents, WhatIsMissingOfAnIncompleteAgentIsSaid) {

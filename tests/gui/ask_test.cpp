@@ -81,7 +81,8 @@ TEST_F(TwoWindows, SeeEachOtherByTheNamesOfPeopleBeforeTheyHoldAnything) {
     ASSERT_EQ(panel.offered(), QStringList{QString::fromStdString(theirs().self)});
     QString said;
     for (const auto* each : panel.findChildren<QLabel*>()) said += each->text() + '\n';
-    EXPECT_TRUE(said.contains("A click hands over /drive to:")) << said.toStdString();
+    EXPECT_TRUE(said.contains("A click, or Enter twice, hands over /drive to:"))
+        << said.toStdString();
     EXPECT_TRUE(said.contains("To others you are " + ownName(mine()) + "."));
 }
 

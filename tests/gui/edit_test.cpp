@@ -3,6 +3,8 @@
 #include "gui/editing.hpp"
 #include "views/command_card.hpp"
 #include "widgets/entry_hint.hpp"
+#include "widgets/question.hpp"
+#include "widgets/value_field.hpp"
 
 #include <QAction>
 #include <QClipboard>
@@ -242,6 +244,10 @@ TEST_F(EditingArrays, ElementsAreEnteredOneByOne) {
     enters(2, "0.25", Qt::Key_Tab);
     EXPECT_EQ(element(2).data(), "0.25");
     EXPECT_TRUE(shows(1, "0"));
+    for (int i = 0; i < 3 && field() != nullptr; ++i) QTest::keyClick(field(), Qt::Key_Backtab);
+    EXPECT_TRUE(field() == nullptr || !field()->text().contains(' '))
+        << "the whole array is passed by, as its elements are open";
+    if (field() != nullptr) QTest::keyClick(field(), Qt::Key_Escape);
     enters(3, "abc", Qt::Key_Tab);
     EXPECT_TRUE(says("pose 3: number expected"));
     ASSERT_NE(field(), nullptr);
@@ -289,6 +295,39 @@ TEST_F(Editing, WillNotUndoWhatAnotherStartOfTheAgentHadSet) {
     bar().undo();
     EXPECT_TRUE(says("Not undone: the agent has started anew since."))
         << bar().findChild<TextLabel*>()->text().toStdString();
+}
+
+TEST_F(Editing, TheWindowAsksBeforeItForgetsWhatIsTypedAndNotSent) {
+    ASSERT_TRUE(isReady());
+    const auto asks = [this](const QString& wanted) {
+        EXPECT_FALSE(window.close());
+        bool said = false;
+        for (auto* each : window.findChildren<Question*>()) {
+            if (!each->isVisible()) continue;
+            for (const auto* label : each->findChildren<TextLabel*>())
+                said = said || label->text() == wanted;
+            each->no().click();
+        }
+        QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+        return said;
+    };
+    window.open("/mixer");
+    window.openPart("commands");
+    window.refresh();
+    auto* form = window.current()->findChild<ValueField*>();
+    ASSERT_NE(form, nullptr);
+    form->setText("1");
+    EXPECT_TRUE(asks("1 entered value, not sent, is forgotten."));
+    form->setText({});
+    ASSERT_TRUE(isReady());
+    table().setCurrentIndex(cellOf("dampingRatio"));
+    QTest::keyClick(&table(), '7');
+    ASSERT_NE(field(), nullptr);
+    EXPECT_TRUE(asks("1 entered value, not sent, is forgotten."));
+    if (field() != nullptr) QTest::keyClick(field(), Qt::Key_Escape);
+    bar().discard();
+    QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+    EXPECT_TRUE(window.close()) << "nothing is lost";
 }
 
 TEST_F(Editing, WillNotUndoWhatSomebodyElseHasSetSince) {

@@ -340,6 +340,33 @@ TEST_F(EventTab, DownAndEnterInItsFilterGoToTheNewestRowAndUpInTheFirstGoesBack)
     EXPECT_TRUE(field.hasFocus());
 }
 
+TEST_F(EventTab, TheKeyboardThatComesChoosesNothingAndHomeTheFirst) {
+    QApplication::setActiveWindow(&view);
+    events.add(changes(1, 200));
+    ASSERT_TRUE(isAtTheEnd(table()));
+    table().setFocus(Qt::TabFocusReason);
+    EXPECT_FALSE(table().currentIndex().isValid());
+    QTest::keyClick(&table(), Qt::Key_Down);
+    EXPECT_GE(table().currentIndex().row(), 198) << "what is in sight";
+    QTest::keyClick(&table(), Qt::Key_Home);
+    EXPECT_EQ(table().currentIndex().row(), 0);
+    EXPECT_EQ(table().verticalScrollBar()->value(), 0);
+}
+
+TEST_F(EventTab, AnEventThatIsOpenedAtTheEndHasNothingNewBelow) {
+    events.add(changes(1, 200));
+    ASSERT_TRUE(isAtTheEnd(table()));
+    table().verticalScrollBar()->triggerAction(QScrollBar::SliderToMinimum);
+    events.add(changes(201, 12));
+    ASSERT_EQ(table().newBelow(), 12U);
+    view.choose(shown.serial(211));
+    EXPECT_TRUE(isAtTheEnd(table()));
+    EXPECT_EQ(table().newBelow(), 0U);
+    events.add(changes(213, 5));
+    EXPECT_EQ(table().newBelow(), 5U) << "it stays in sight";
+    EXPECT_EQ(table().currentIndex().row(), 211);
+}
+
 TEST_F(EventTab, WritesControlCharactersAsTheyAre) {
     const QTemporaryDir folder;
     const QString path = folder.filePath("events.csv");

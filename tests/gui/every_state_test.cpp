@@ -347,6 +347,28 @@ TEST_F(Noticing, AllThatStandsInItIsInsideAndNothingLiesOverAnother) {
     EXPECT_TRUE(notice->remedy().toolTip().contains(path)) << "it is cut";
 }
 
+TEST_F(Noticing, BothTextsHaveTheWholeWidthWhereTheyDoNotFitBesideOneAnother) {
+    showAt(900);
+    window.resize(1280, 900);
+    const QString outcome{"22 of 25 in Standby, 10.4 s; Not reached: operator, 12:05:20 UTC; "};
+    const QString loss{"operator is not heard: control of it was lost, and nothing stops it; "};
+    notice->show(loss, "Take again");
+    notice->tell("All 3 in Standby", "Start these 3 again");
+    settle();
+    EXPECT_EQ(notice->height(), notice->place().height()) << "both are short";
+    notice->show(loss.chopped(2), "Take again");
+    notice->tell(outcome.chopped(2), "Start these 22 again");
+    settle();
+    EXPECT_EQ(notice->height(), notice->place().height()) << "a line each";
+    notice->show(loss.repeated(2), "Take again");
+    notice->tell(outcome.repeated(2), "Start these 22 again");
+    for (const int width : {800, 900, 1024, 1280}) {
+        window.resize(width, 900);
+        settle();
+        EXPECT_LE(notice->height(), 2 * notice->place().height()) << width;
+    }
+}
+
 TEST_F(Noticing, NoOtherButtonEverStandsInThePlaceOfClose) {
     showAt(900);
     notice->show("alice asks for /drive.", "Hand over");

@@ -6,6 +6,7 @@
 #include "views/command_card.hpp"
 #include "views/event_table.hpp"
 #include "window/find_panel.hpp"
+#include "window/layout_keeper.hpp"
 #include "window/workspace.hpp"
 
 #include <QPointer>
@@ -132,6 +133,39 @@ TEST_F(Finding, FindsTheLayoutsOfTheMenuAndBeginsAnew) {
     window.find();
     EXPECT_EQ(words.selectedText(), "reset layout");
     window.findPanel()->close();
+}
+
+TEST_F(Finding, WhatDiscardsIsFoundAfterAllElseAndAResetCanBeTakenBack) {
+    ASSERT_TRUE(isReady());
+    ASSERT_TRUE(takes("/"));
+    const auto found = [&](const char* words) {
+        key(Qt::Key_K, Qt::ControlModifier);
+        window.findPanel()->field().setText(words);
+        QStringList all;
+        for (int i = 0; i < window.findPanel()->list().topLevelItemCount(); ++i)
+            all << window.findPanel()->list().topLevelItem(i)->text(0);
+        window.findPanel()->close();
+        QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+        QApplication::setActiveWindow(&window);
+        return all;
+    };
+    EXPECT_EQ(found("control").first(), "Take control…") << "before /controller";
+    EXPECT_EQ(found("layout").first(), "Layout: Open…");
+    EXPECT_EQ(found("layout").last(), "Layout: Reset");
+    for (const auto& [words, last] : {std::pair{"q", "Quit"}, {"rel", "Release control"}}) {
+        EXPECT_GT(found(words).size(), 1) << words;
+        EXPECT_EQ(found(words).last(), last);
+    }
+    window.openTab("/mixer");
+    const auto& pane = *window.workspace().panes()[0];
+    const int before = pane.count();
+    window.layouts().reset();
+    const int after = pane.count();
+    ASSERT_LT(after, before);
+    for (const int count : {before, after, before}) {
+        window.layouts().goBack();
+        EXPECT_EQ(pane.count(), count) << "going back can be taken back, too";
+    }
 }
 
 TEST_F(Finding, ACommandsNameIsInSightAlsoWhereItsFormIsHigherThanTheView) {

@@ -40,6 +40,27 @@ protected:
     }
 };
 
+TEST_F(ByKeyboard, TheWindowBeginsInTheRowsOfTheViewInFront) {
+    const QWidget* first = window.focusWidget();
+    EXPECT_NE(qobject_cast<const QTabBar*>(first), nullptr) << "no agent is known yet";
+    ASSERT_TRUE(everythingComes());
+    ASSERT_TRUE(comes([&] { return window.focusWidget() != first; }));
+    const auto* rows = qobject_cast<const QAbstractItemView*>(window.focusWidget());
+    ASSERT_NE(rows, nullptr);
+    EXPECT_TRUE(window.current()->isAncestorOf(rows));
+    EXPECT_GT(rows->model()->rowCount(), 0);
+    QTest::keyClick(window.focusWidget(), Qt::Key_Down);
+    EXPECT_TRUE(rows->currentIndex().isValid());
+}
+
+TEST_F(ByKeyboard, TheKeyboardStaysWhereAPersonHasPutItWhateverComes) {
+    window.tree().focusFilter();
+    const QWidget* filter = window.focusWidget();
+    ASSERT_TRUE(everythingComes());
+    for (int i = 0; i < 3; ++i) window.refresh();
+    EXPECT_EQ(window.focusWidget(), filter);
+}
+
 TEST_F(ByKeyboard, EnterPressesWhatHasTheKeyboard) {
     ASSERT_TRUE(everythingComes());
     window.activateWindow();
@@ -65,7 +86,7 @@ TEST_F(ByKeyboard, EnterDoesNotJog) {
     jog.setParent(&window);
     jog.show();
     jog.setFocus();
-    QTest::keyClick(&jog, Qt::Key_Return);
+    for (const Qt::Key key : {Qt::Key_Return, Qt::Key_Enter}) QTest::keyClick(&jog, key);
     EXPECT_EQ(pressed, 0);
     jog.setParent(nullptr);
 }
@@ -162,6 +183,7 @@ TEST_F(ByKeyboard, TabGoesFromTopToBottomInEachPartAndReachesEverything) {
     ASSERT_TRUE(everythingComes());
     window.open("/drive");
     window.activateWindow();
+    if (QWidget* now = QApplication::focusWidget()) now->clearFocus();
     const auto all = walked(Qt::Key_Tab);
     const auto firstOf = [&](QWidget& part) {
         return std::ranges::find_if(all, [&](QWidget* each) { return part.isAncestorOf(each); });

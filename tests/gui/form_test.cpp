@@ -195,6 +195,22 @@ TEST(TypedArguments, AreForgottenWhereTheParameterMeansSomethingElse) {
     other = angle;
     other.length = 2;
     EXPECT_EQ(typed.of(key, other), "");
+    other = angle;
+    other.kind = Kind::Int;
+    EXPECT_EQ(typed.of(key, other), "");
+}
+
+TEST(TypedArguments, AreUnsentUntilTheirCommandIsAndWhenTheyAreTypedAnew) {
+    TypedArguments typed;
+    const DataItem item = itemOfKind(Kind::Float);
+    typed.keep({"/arm", "turn", "value"}, item, "2");
+    typed.keep({"/arm", "move", "value"}, item, "3");
+    EXPECT_EQ(typed.unsent(), 2);
+    typed.noteSent("/arm", "turn");
+    EXPECT_EQ(typed.unsent(), 1);
+    typed.keep({"/arm", "turn", "value"}, item, "4");
+    typed.keep({"/arm", "move", "value"}, item, {});
+    EXPECT_EQ(typed.unsent(), 1);
 }
 
 TEST(ShellText, IsQuotedForAShell) {

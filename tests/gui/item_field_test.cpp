@@ -64,6 +64,22 @@ TEST_F(ItemField, LeftAsItWasEntersNothingThoughSomebodyElseHasSetTheItem) {
     press(Qt::Key_Escape);
 }
 
+TEST_F(ItemField, ShowsASignForWhatTurnsTextsAndKeepsIt) {
+    const std::string turned = "\u202e\u200eb";
+    const auto opensTitle = [&] { return opens(cellOf("title")); };
+    agent->put("/worker", "title", turned);
+    shows({agent->now()});
+    ASSERT_TRUE(opensTitle());
+    EXPECT_EQ(field()->text(), "\uFFFD\uFFFDb");
+    press(Qt::Key_Return);
+    EXPECT_FALSE(entered("title")) << "it was left as it was";
+    ASSERT_TRUE(opensTitle());
+    QTest::keyClick(field(), Qt::Key_Home);
+    QTest::keyClicks(field(), "c");
+    press(Qt::Key_Return);
+    EXPECT_EQ(entered("title"), (Value{std::vector<std::string>{"c" + turned}}));
+}
+
 TEST_F(ItemField, StaysOpenWithItsTextWhereTheAgentStartsAnew) {
     ASSERT_TRUE(opens());
     QTest::keyClicks(field(), "57");
@@ -182,6 +198,7 @@ TEST_F(LabelField, IsChosenFromByArrowsAndEnter) {
 TEST_F(LabelField, IsChosenFromByItsFirstLetters) {
     ASSERT_TRUE(opens("mode"));
     QTest::keyClicks(field(), "ho");
+    ASSERT_NE(list(), nullptr);
     EXPECT_EQ(list()->currentRow(), 2);
     press(Qt::Key_Tab);
     if (field() != nullptr) press(Qt::Key_Escape);
@@ -194,13 +211,13 @@ TEST_F(LabelField, IsChosenFromByItsFirstLetters) {
 
 TEST_F(LabelField, SaysTheLabelsWhereNoneBeginsLikeThat) {
     ASSERT_TRUE(opens("mode"));
-    QTest::keyClicks(field(), "x");
+    QTest::keyClicks(field(), "o");  // as two of them have it
     EXPECT_EQ(list(), nullptr);
-    EXPECT_EQ(table.findChild<EntryHint*>()->text(), "'x' is no label; try Idle, Jog or Hold");
+    EXPECT_EQ(table.findChild<EntryHint*>()->text(), "'o' is no label; try Idle, Jog or Hold");
     QString refused;
     QObject::connect(&items, &ItemModel::refused, [&](const QString& why) { refused = why; });
     press(Qt::Key_Return);
-    EXPECT_EQ(refused, "mode: 'x' is no label; try Idle, Jog or Hold");
+    EXPECT_EQ(refused, "mode: 'o' is no label; try Idle, Jog or Hold");
     EXPECT_FALSE(entered("mode"));
     ASSERT_NE(field(), nullptr);
     field()->selectAll();
@@ -213,11 +230,13 @@ TEST_F(LabelField, SaysTheLabelsWhereNoneBeginsLikeThat) {
 TEST_F(LabelField, IsChosenFromWithTheMouseAndTheWheelChangesNothing) {
     ASSERT_TRUE(opens("mode"));
     const QPoint third = list()->visualItemRect(list()->item(2)).center();
-    QWheelEvent wheel{third, list()->mapToGlobal(third), {0, 0}, {0, 120}, Qt::NoButton,
-                      {},    Qt::NoScrollPhase,          false};
-    QApplication::sendEvent(list()->viewport(), &wheel);
-    EXPECT_EQ(field()->text(), "Idle");
-    EXPECT_EQ(list()->currentRow(), 0);
+    for (const int turned : {-120, 120}) {  // down first, as the first is chosen
+        QWheelEvent wheel{third, list()->mapToGlobal(third), {0, 0}, {0, turned}, Qt::NoButton,
+                          {},    Qt::NoScrollPhase,          false};
+        QApplication::sendEvent(list()->viewport(), &wheel);
+        EXPECT_EQ(field()->text(), "Idle");
+        EXPECT_EQ(list()->currentRow(), 0);
+    }
     QTest::mouseClick(list()->viewport(), Qt::LeftButton, {}, third);
     EXPECT_EQ(entered("mode"), number(2));
     EXPECT_EQ(field(), nullptr);

@@ -13,6 +13,7 @@ TEST_F(ItemField, WhatWasEnteredBeforeItsSimplexWasLeftIsNotSentByEnterInAnother
     items.show("/other");
     items.show("/worker");
     shows({agent->now()});
+    EXPECT_TRUE(items.freshEdits().empty());
     items.setData(cellOf("weights"), "0 0 1");
     items.setData(cellOf("on"), "true");
     EXPECT_EQ(items.freshEdits().size(), 2U);
@@ -49,7 +50,10 @@ class ChangedType : public ItemField {
 protected:
     ChangedType() {
         QObject::connect(&items, &ItemModel::setAside,
-                         [this](const std::string&, const QStringList& each) { aside << each; });
+                         [this](const std::string& path, const QStringList& each) {
+                             EXPECT_EQ(path, "/worker");
+                             aside << each;
+                         });
     }
     void startsWith(const std::string& data) {
         const ModelFolder folder;

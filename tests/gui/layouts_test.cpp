@@ -5,6 +5,9 @@
 #include "gui/workspace_fixture.hpp"
 #include "style/look.hpp"
 #include "views/event_list.hpp"
+#include "widgets/text_label.hpp"
+#include "window/control_bar.hpp"
+#include "window/control_notice.hpp"
 #include "window/layout_keeper.hpp"
 #include "window/layout_menu.hpp"
 #include "window/window_size.hpp"
@@ -15,6 +18,7 @@
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QMenu>
+#include <QPushButton>
 #include <QScreen>
 #include <QSplitter>
 #include <QTemporaryDir>
@@ -67,6 +71,31 @@ protected:
     }
     static int usualTree() { return Look::units(76); }
 };
+
+TEST_F(KeptWindows, SayInTheWindowThatOneIsBrokenAndWhereItIsNow) {
+    QFile file{layouts().folder() + "/domain-7-0123456789ab.json"};
+    ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+    file.write("{broken");
+    file.close();
+    MainWindow another{session};
+    another.layouts().begin(7);
+    another.show();
+    ASSERT_TRUE(comes([&] { return another.ready(); }));
+    another.refresh();
+    auto& notice = another.control().notice();
+    const auto says = [&](const QString& text) {
+        const auto labels = notice.findChildren<TextLabel*>();
+        return notice.isVisible() && std::ranges::any_of(labels, [&](const auto* each) {
+                   return each->isVisible() && each->text().contains(text);
+               });
+    };
+    EXPECT_TRUE(says("It was set aside as " + file.fileName() + ".broken."));
+    for (auto* each : notice.findChildren<QPushButton*>())
+        if (each->text() == "Close") each->click();
+    another.refresh();
+    EXPECT_FALSE(notice.isVisible()) << "it was read";
+    EXPECT_EQ(another.workspace().panes()[0]->count(), 5) << "and the window is as it begins";
+}
 
 TEST_F(KeptWindows, KnowThatTheTreeAndTheEventsAreHidden) {
     ASSERT_TRUE(everythingComes());

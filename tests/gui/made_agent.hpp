@@ -106,7 +106,7 @@ private:
 
 // As the agent itself shows who holds what of it.
 inline void giveLease(MadeAgent& agent, const std::string& own, const std::string& prefix,
-                      const std::string& holder) {
+                      const std::string& holder, std::int64_t cycle = 0) {
     const std::uint32_t simplex = agent.at(own);
     for (const auto& [item, text] : {std::pair{"leasePrefix", prefix}, {"leaseHolder", holder}}) {
         const ItemLayout* layout = agent.structure->simplexes[simplex].layout->find(item);
@@ -115,6 +115,11 @@ inline void giveLease(MadeAgent& agent, const std::string& own, const std::strin
         storeValue(*layout->item, Value{texts},
                    agent.tables->live(simplex).at(Kind::String, layout->offset));
     }
+    const ItemLayout* since = agent.structure->simplexes[simplex].layout->find("leaseSince");
+    std::vector<std::int64_t> cycles(since->item->length);
+    cycles.front() = cycle;
+    storeValue(*since->item, Value{cycles},
+               agent.tables->live(simplex).at(Kind::Int, since->offset));
 }
 
 // A frame of these agents, with a number and structures of its own.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Random keys and clicks while the agent that is looked at dies and comes back.
 #include "gui/window_fixture.hpp"
+#include "style/look.hpp"
 
 #include <QAbstractItemView>
 #include <QApplication>
@@ -39,6 +40,8 @@ int numberFrom(const char* variable, int otherwise) {
 
 class Monkey : public Window {
 protected:
+    // Its keys change the size of texts of all windows.
+    ~Monkey() override { Look::apply(Theme::Light, 1, QStringLiteral("Open Sans")); }
     template <class Choices>
     auto any(const Choices& choices) {
         return choices[random() % choices.size()];

@@ -4,11 +4,16 @@
 #include "gui/rival.hpp"
 #include "gui/workspace_fixture.hpp"
 #include "views/agent_view.hpp"
+#include "views/event_panel.hpp"
+#include "views/event_table.hpp"
 #include "views/event_view.hpp"
 #include "views/overview_table.hpp"
 #include "views/overview_view.hpp"
 #include "widgets/link.hpp"
+#include "widgets/text_label.hpp"
 
+#include <QLineEdit>
+#include <algorithm>
 #include <csignal>
 
 namespace cortex::test {
@@ -21,20 +26,22 @@ protected:
             if (each->accessibleName() == name) return *each;
         throw std::runtime_error{"no such part"};
     }
-    bool shows(const QString& part, const QString& text) {
-        return comes([&] { return !table(part).findItems(text, Qt::MatchContains, 0).empty(); });
+    bool shows(const QString& part, const QString& text, int column = 0) {
+        return comes(
+            [&] { return !table(part).findItems(text, Qt::MatchContains, column).empty(); });
     }
     // By keys alone.
-    void open(const QString& part, const QString& text) {
+    void open(const QString& part, const QString& text, int column = 0) {
         window.openKind("overview");
         QApplication::setActiveWindow(&window);
         auto& rows = table(part);
         rows.setFocus(Qt::TabFocusReason);
-        const auto found = rows.findItems(text, Qt::MatchContains, 0);
+        const auto found = rows.findItems(text, Qt::MatchContains, column);
         ASSERT_FALSE(found.empty());
+        const auto key = column == 0 ? Qt::Key_Down : Qt::Key_Up;
         while (rows.currentItem() != found.front()) {
             const int before = rows.currentIndex().row();
-            QTest::keyClick(&rows, Qt::Key_Down);
+            QTest::keyClick(&rows, key);
             ASSERT_NE(rows.currentIndex().row(), before);
         }
         QTest::keyClick(&rows, Qt::Key_Return);
@@ -61,6 +68,24 @@ TEST_F(FirstPageLive, IsInFrontAtTheStartAndEachRowOpensItsPlace) {
     EXPECT_TRUE(window.workspace().path().starts_with("/axis/"))
         << "the first one below: " << window.workspace().path();
     session.releaseControl();
+
+    const QString last = "Last commands and losses";
+    ASSERT_TRUE(shows(last, "takeControl", 2));
+    open(last, "takeControl", 2);
+    auto* events = window.current()->findChild<EventTable*>();
+    ASSERT_NE(events, nullptr);
+    QApplication::processEvents();
+    EXPECT_TRUE(events->hasFocus());
+    const QModelIndex row = events->currentIndex();
+    EXPECT_TRUE(row.siblingAtColumn(EventModel::Text).data().toString().contains("takeControl"));
+    const QRect place = events->visualRect(row);
+    EXPECT_TRUE(events->viewport()->rect().contains(place.topLeft() + QPoint{0, place.height()}));
+    const auto details = window.current()->findChild<EventPanel*>()->findChildren<TextLabel*>();
+    EXPECT_TRUE(std::ranges::any_of(
+        details, [](const auto* each) { return each->text().contains("takeControl"); }));
+    window.current()->findChild<QLineEdit*>()->setText("no such event");
+    open(last, "takeControl", 2);
+    EXPECT_EQ(window.current()->findChild<EventTable*>(), nullptr) << "it is hidden there";
 
     window.openKind("overview");
     agent->end(SIGKILL);

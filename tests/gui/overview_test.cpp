@@ -4,6 +4,7 @@
 #include "gui/made_agent.hpp"
 #include "gui/measured_agent.hpp"
 #include "model/shown_time.hpp"
+#include "model/wrong_rows.hpp"
 #include "views/overview_part.hpp"
 #include "views/overview_view.hpp"
 #include "widgets/text_label.hpp"
@@ -110,6 +111,24 @@ TEST_F(FirstPage, SaysWhatIsWrongWithTheFaultTheItemAndItsLimit) {
     EXPECT_EQ(wrongCount(*frame, abnormal), "1 in Fault, 1 outside limits, 1 lost");
 }
 
+TEST_F(FirstPage, HasOneRowOfAPathThatIsInFaultAndLostAsWell) {
+    robot.degrade("/b", Quality::Lost);
+    auto frame = frameOf({robot.now()});
+    abnormal.update(*frame);
+    const auto rows = wrongRows(*frame, abnormal, times);
+    EXPECT_EQ(cellsOf(rows, 0), (QStringList{"/b", "/seen"}));
+    EXPECT_EQ(rows[0].cells[1], "Fault 7: the brake is closed; its values are lost");
+    EXPECT_EQ(wrongCount(*frame, abnormal), "1 in Fault, 1 outside limits, 1 lost")
+        << "as the tree counts";
+    const auto structures = frame->structures;
+    abnormal.update(*frame);  // it is not its turn to look again
+    frame = frameOf({robot.now("lost")});
+    frame->structures = structures;
+    abnormal.update(*frame);
+    EXPECT_EQ(wrongCount(*frame, abnormal), "4 lost") << "at once, of what it was nothing is known";
+    EXPECT_EQ(wrongRows(*frame, abnormal, times).size(), 1U);
+}
+
 TEST_F(FirstPage, NamesAPathThatTwoAgentsClaimWhileBothAreHeard) {
     auto frame = frameOf({arm.now(), robot.now()});
     frame->contested.push_back(
@@ -122,6 +141,9 @@ TEST_F(FirstPage, NamesAPathThatTwoAgentsClaimWhileBothAreHeard) {
     EXPECT_TRUE(wrongCount(*frame, abnormal).endsWith("1 claimed twice"));
     frame->agents = {arm.now(), robot.now("lost")};
     EXPECT_FALSE(wrongCount(*frame, abnormal).contains("claimed"));
+    frame->agents.push_back(mill.now());
+    frame->contested[0].agents.push_back("mill");
+    EXPECT_TRUE(wrongCount(*frame, abnormal).endsWith("1 claimed twice")) << "two are heard";
 }
 
 TEST_F(FirstPage, SaysHowManyMoreAreWrongWhereThereAreVeryMany) {
@@ -144,8 +166,8 @@ TEST_F(FirstPage, NamesThePersonFirstWhoHoldsControlOfWhat) {
     frame->control.self = "cortex-explorer@own.2-2";
     frame->control.tools.push_back({"cortex-explorer@desk.1-1", "desk", "alice", {}, {}, {}});
     auto rows = controlRows(*frame);
-    EXPECT_EQ(controlNote(*frame, true), "All else is held by nobody.");
-    EXPECT_EQ(controlNote(*frame, false), "");
+    EXPECT_EQ(controlNote(*frame, true, 9), "All else is held by nobody.");
+    EXPECT_EQ(controlNote(*frame, false, 9), "");
     ASSERT_EQ(rows.size(), 1U);
     EXPECT_EQ(rows[0].cells.mid(0, 3),
               (QStringList{"everything", "alice (cortex-explorer@desk.1-1)", "arm and mill"}));
@@ -156,8 +178,63 @@ TEST_F(FirstPage, NamesThePersonFirstWhoHoldsControlOfWhat) {
     giveLease(mill, "/mill", "", "");
     frame->agents = {arm.now("lost"), mill.now()};
     EXPECT_TRUE(controlRows(*frame).empty()) << "nobody knows what a lost agent would show";
-    EXPECT_EQ(controlNote(*frame, false), "Not heard, so not known of: arm.");
-    EXPECT_EQ(controlNote(*frame, true), "Not heard, so not known of: arm.");
+    EXPECT_EQ(controlNote(*frame, false, 9), "Not heard, so not known of: arm.");
+    EXPECT_EQ(controlNote(*frame, true, 9), "Not heard, so not known of: arm.");
+    frame->agents.front().status.ended = true;
+    EXPECT_EQ(controlNote(*frame, true, 9), "All else is held by nobody.") << "it has ended";
+}
+
+TEST_F(FirstPage, HasARowForEachMomentAtWhichAPartWasTaken) {
+    MadeAgent late = clusterNamed("late");
+    for (auto* each : {&arm, &mill, &late}) each->skip(300'000);
+    giveLease(arm, "/arm", "/", "desk");
+    giveLease(mill, "/mill", "/", "desk", 2'000);
+    giveLease(late, "/late", "/", "desk", 200'000);
+    const auto frame = frameOf({arm.now(), late.now(), mill.now(), robot.now()});
+    const auto rows = controlRows(*frame);
+    EXPECT_EQ(cellsOf(rows, 2), (QStringList{"arm and mill", "late"}));
+    EXPECT_EQ(cellsOf(rows, 3), (QStringList{"22:13:20", "22:16:40"}));
+    EXPECT_NE(rows[0].key, rows[1].key) << "each keeps a place of its own";
+}
+
+TEST_F(FirstPage, SaysOfWhatIsHeldNoMoreThanIsKnownWhereARowIsKept) {
+    giveLease(arm, "/arm", "/", "desk");
+    show(frameOf({arm.now(), mill.now()}));
+    table("Who controls what").setAttribute(Qt::WA_UnderMouse);
+    show(frameOf({arm.now("lost"), mill.now()}));
+    EXPECT_EQ(shown("Who controls what", 1).front(), "No agent that is heard says so now.");
+    giveLease(arm, "/arm", "", "");
+    show(frameOf({arm.now(), mill.now()}));
+    EXPECT_EQ(shown("Who controls what", 1).front(), "It is not held any more.");
+}
+
+TEST_F(FirstPage, NamesAsManySilentAgentsAsTwoLinesHoldAndMovesNothing) {
+    std::vector<AgentFrame> agents{mill.now()};
+    const auto note = [&] {
+        for (auto* each : view.findChildren<TextLabel*>())
+            if (each->text().startsWith("Not heard")) return each;
+        throw std::runtime_error{"no note"};
+    };
+    view.resize(500, 600);
+    show(frameOf(agents));
+    const auto places = [&] {
+        std::vector<QRect> all;
+        for (auto* each : view.findChildren<OverviewPart*>()) all.push_back(each->geometry());
+        return all;
+    };
+    const auto before = places();
+    for (int i = 0; i < 40; ++i) {
+        MadeAgent each = clusterNamed("operator" + std::to_string(i));
+        agents.push_back(each.now("lost"));
+    }
+    show(frameOf({agents[0], agents[1]}));
+    EXPECT_EQ(note()->text(), "Not heard, so not known of: operator0.");
+    show(frameOf(agents));
+    const QString all = note()->text();
+    EXPECT_TRUE(all.contains("operator2") && all.endsWith(" more.")) << all.toStdString();
+    EXPECT_TRUE(note()->fits(all));
+    EXPECT_GE(note()->height(), note()->heightOfLines(2));
+    EXPECT_TRUE(places() == before);
 }
 
 TEST_F(FirstPage, HasTheLastCommandsAndLossesWhateverTheFilterOfEventsHides) {
@@ -178,7 +255,8 @@ TEST_F(FirstPage, HasTheLastCommandsAndLossesWhateverTheFilterOfEventsHides) {
 }
 
 TEST_F(FirstPage, KeepsCommandsThroughABurstOfLossesAndOrdersByTime) {
-    LastEvents last{events};
+    LastEvents last{events}, later{events};
+    last.update(false);  // it sees each as it comes, the other one what there is by then
     events.add({commandOf(1, "desk: a(): Done")});
     for (std::uint64_t i = 2; i <= 60; ++i)
         events.add({eventOf(i, "loss", "/arm", "input is lost", Severity::Warning)});
@@ -186,10 +264,12 @@ TEST_F(FirstPage, KeepsCommandsThroughABurstOfLossesAndOrdersByTime) {
     early.agent = "other";
     early.wallClock -= 3'600'000'000'000;
     events.add({early});
-    const auto& rows = last.update(false);
-    ASSERT_EQ(rows.size(), LastEvents::usualLosses + 2);
-    EXPECT_TRUE(rows[0].cells[2].contains("early")) << rows[0].cells[2].toStdString();
-    EXPECT_TRUE(rows[1].cells[2].contains("a()")) << rows[1].cells[2].toStdString();
+    for (LastEvents* each : {&last, &later}) {
+        const auto& rows = each->update(false);
+        ASSERT_EQ(rows.size(), LastEvents::usualLosses + 2);
+        EXPECT_TRUE(rows[0].cells[2].contains("early")) << rows[0].cells[2].toStdString();
+        EXPECT_TRUE(rows[1].cells[2].contains("a()")) << rows[1].cells[2].toStdString();
+    }
 }
 
 TEST_F(FirstPage, KeepsTheLastTwentyAndMoreWhileTheyAreLookedAt) {
@@ -246,10 +326,26 @@ TEST_F(FirstPage, KeepsItsRowsWhereTheyAreWhileThePointerIsInThem) {
     EXPECT_EQ(shown("Agents"), (QStringList{"mill", "robot", "arm"}));
     EXPECT_EQ(shown("Agents", 3).front(), "It is not heard.");
     EXPECT_EQ(shown("Agents", 1).front(), "");
+    auto later = frameOf({arm.now(), robot.now()});
+    later->gone.push_back({"mill", true, MadeAgent::start, mill.structure});
+    show(later);
+    EXPECT_EQ(shown("Agents", 3).front(), "It ended at 22:13:20 UTC.");
     EXPECT_EQ(table("What is wrong").geometry(), before);
     table("Agents").setAttribute(Qt::WA_UnderMouse, false);
     show(frameOf({arm.now(), robot.now()}));
     EXPECT_EQ(shown("Agents"), (QStringList{"arm", "robot"}));
+}
+
+TEST_F(FirstPage, FollowsWhatIsWrongWhileTheKeyboardOnlyBeginsThere) {
+    show(frameOf({robot.now()}));
+    QApplication::setActiveWindow(&view);
+    table("Agents").setFocus(Qt::OtherFocusReason);  // as a window does when it opens
+    show(frameOf({robot.now(), arm.now("lost")}));
+    EXPECT_EQ(shown("Agents"), (QStringList{"arm", "robot"})) << "the worst first";
+    EXPECT_EQ(table("Agents").currentItem()->text(0), "robot") << "as before";
+    QTest::keyClick(&table("Agents"), Qt::Key_Down);
+    show(frameOf({robot.now(), arm.now("lost"), mill.now("lost")}));
+    EXPECT_EQ(shown("Agents"), (QStringList{"arm", "robot", "mill"})) << "a person uses it";
 }
 
 TEST_F(FirstPage, LeavesARowWhereAFaultIsOverWhileItHasTheKeyboard) {
@@ -263,6 +359,8 @@ TEST_F(FirstPage, LeavesARowWhereAFaultIsOverWhileItHasTheKeyboard) {
     show(frameOf({robot.now()}));
     EXPECT_EQ(shown("What is wrong"), (QStringList{"/b", "/seen"}));
     EXPECT_EQ(shown("What is wrong", 1), (QStringList{"It is over.", "It is over."}));
+    show(frameOf({robot.now("lost")}));
+    EXPECT_EQ(shown("What is wrong", 1).front(), "Its agent is not heard.");
     table("What is wrong").clearFocus();
     show(frameOf({robot.now()}));
     EXPECT_FALSE(table("What is wrong").isVisible());

@@ -136,6 +136,8 @@ TEST_F(PastWindow, ShowsTheCommandOfBeforeAFloodOfChatterWithItsPerson) {
     EXPECT_TRUE(rowWith("): startup(): Done"));
     EXPECT_FALSE(rowWith(said(1'500))) << "its live events reach back less";
     EXPECT_TRUE(comes([&] { return says("robot: keeps what happened since "); }));
+    EXPECT_TRUE(says("Changes of values are known until ") &&
+                says("; Last hour asks again. robot"));
     EXPECT_EQ(*rowWith("): startup(): Done") < *rowWith(said(1)), true);
     EXPECT_EQ(table().model()->rowCount(), [&] {
         std::set<QString> all;

@@ -110,6 +110,16 @@ protected:
                    areIn(State::Standby, three);
         });
     }
+    // As it should.
+    bool rightEnds() {
+        right.probes.cluster->stop();
+        return comes([this] {
+            const auto frame = session.frame();
+            return std::ranges::any_of(frame->agents, [](const AgentFrame& each) {
+                return each.status.name == "right" && each.status.ended;
+            });
+        });
+    }
     bool stopSays(const QString& start, const QString& part) {
         const QString& text = window.stopButton().progress();
         return text.startsWith(start) && text.contains(part);
@@ -148,6 +158,7 @@ protected:
     }
 
     const std::vector<std::string> three{"/cell/base", "/cell/arm", "/cell/tool"};
+    const std::vector<std::string> others{"/cell/idle", "/cell/arm", "/cell/tool"};
     std::mutex mutex;
     std::vector<std::string> started;
     std::atomic<Probe*> hangs{nullptr}, fails{nullptr};
@@ -227,14 +238,7 @@ TEST_F(StartingAgain, ASecondStopLosesNothingOfTheFirst) {
     ASSERT_TRUE(offers("Start these 3 again"));
     ASSERT_TRUE(stops());
     EXPECT_TRUE(offers("Start these 3 again"));
-    right.probes.cluster->stop();
-    const auto isHeard = [this] {
-        const auto frame = session.frame();
-        return std::ranges::any_of(frame->agents, [](const AgentFrame& each) {
-            return each.status.name == "right" && !each.lost();
-        });
-    };
-    ASSERT_TRUE(comes([&] { return !isHeard(); }));
+    ASSERT_TRUE(rightEnds());
     ASSERT_TRUE(offers("Start these 3 again")) << "it may come back";
     pressAgain();
     EXPECT_TRUE(says("1 of 3 Active again, ")) << window.startAgain().text().toStdString();
@@ -320,7 +324,7 @@ TEST_F(StartingAgain, OnePressStopsNothingOfAnAgentThatIsNotControlled) {
     ASSERT_TRUE(comes([this] { return window.stopButton().text() == "Stop all but right"; }))
         << window.stopButton().text().toStdString();
     ASSERT_TRUE(stops());
-    EXPECT_TRUE(window.stopButton().progress().startsWith("All 2 in Standby, "))
+    EXPECT_TRUE(stopSays("All 2 that you control in Standby, ", "not controlled: right, "))
         << window.stopButton().progress().toStdString();
     EXPECT_TRUE(areIn(State::Active, {"/cell/arm"}));
     window.stopButton().setScope("/");
@@ -337,7 +341,9 @@ TEST_F(StartingAgain, StartAllAsksForControlOfAnAgentThatIsNotControlled) {
     ASSERT_NE(window.control().panel(), nullptr);
     window.control().panel()->close();
     EXPECT_TRUE(window.startAll().text().isEmpty());
-    EXPECT_TRUE(areIn(State::Standby, three));
+    session.send("/cell/idle", "startup");  // what was sent before it was done before it
+    ASSERT_TRUE(comes([this] { return areIn(State::Active, {"/cell/idle"}); }));
+    EXPECT_TRUE(inTheirOrder().empty()) << "also of the agent that is controlled";
     entry("Start all…")->trigger();
     window.control().panel()->takeButton().click();
     EXPECT_TRUE(comes([this] { return areIn(State::Active, three); }));
@@ -346,6 +352,7 @@ TEST_F(StartingAgain, StartAllAsksForControlOfAnAgentThatIsNotControlled) {
 TEST_F(StartingAgain, TheMenuAsksBeforeItStartsWhatIsControlled) {
     ASSERT_TRUE(runs({"/cell/base"}));
     ASSERT_TRUE(takes("/"));
+    ASSERT_TRUE(comes([this] { return areIn(State::Standby, others); }));
     const auto asked = [this]() -> Question* {
         entry("Start all…")->trigger();
         for (auto* each : window.findChildren<Question*>())
@@ -370,16 +377,10 @@ TEST_F(StartingAgain, TheMenuAsksBeforeItStartsWhatIsControlled) {
 TEST_F(StartingAgain, NothingIsMissedOfAnAgentThatEndedAsItShould) {
     ASSERT_TRUE(runs(three));
     ASSERT_TRUE(takes("/"));
-    right.probes.cluster->stop();
-    const auto hasEnded = [this] {
-        const auto frame = session.frame();
-        return std::ranges::any_of(frame->agents, [](const AgentFrame& each) {
-            return each.status.name == "right" && each.status.ended;
-        });
-    };
-    ASSERT_TRUE(comes(hasEnded));
-    ASSERT_TRUE(stops());
-    EXPECT_TRUE(stopSays("All 2 in Standby, ", "; ended: right, "))
+    ASSERT_TRUE(rightEnds());
+    window.stopButton().click();
+    EXPECT_TRUE(stopSays("Stopping all: ", " of 2 in Standby; ended: right")) << "it is not told";
+    EXPECT_TRUE(comes([this] { return stopSays("All 2 in Standby, ", "; ended: right, "); }))
         << window.stopButton().progress().toStdString();
     const QString lost = "Control of / of agent right was lost: the agent has ended.";
     EXPECT_TRUE(comes([&] { return window.control().notice().text().contains(lost); }))
@@ -388,12 +389,11 @@ TEST_F(StartingAgain, NothingIsMissedOfAnAgentThatEndedAsItShould) {
 
 TEST_F(StartingAgain, TheMenuStartsAllOfEverythingOnceControlIsGiven) {
     ASSERT_TRUE(runs({"/cell/base"}));
-    ASSERT_NE(entry("Start all…"), nullptr);
     entry("Start all…")->trigger();
     EXPECT_EQ(window.startAll().text(), "Starting all: needs control");
+    ASSERT_NE(window.control().panel(), nullptr);
     window.control().panel()->takeButton().click();
-    EXPECT_TRUE(comes([this] { return areIn(State::Active, three); }));
-    EXPECT_TRUE(comes([this] { return areIn(State::Active, {"/cell/idle"}); }));
+    EXPECT_TRUE(comes([this] { return areIn(State::Active, others); }));
 }
 
 }  // namespace

@@ -21,11 +21,14 @@ void forOwnSimplexes(const AgentFrame& agent, Visit visit) {
     }
 }
 
-// What comes is counted at once: none says "0 faults" of what it has not heard yet.
+// What comes is counted at once: none says "0 faults" of what it has not heard yet, nor what is
+// wrong in an agent that is lost by now.
 std::size_t howManyCame(const Frame& frame) {
     std::size_t come = 0;
-    for (const AgentFrame& agent : frame.agents)
+    for (const AgentFrame& agent : frame.agents) {
+        if (agent.lost()) continue;
         forOwnSimplexes(agent, [&](std::uint32_t simplex) { come += agent.came(simplex) ? 1 : 0; });
+    }
     return come;
 }
 

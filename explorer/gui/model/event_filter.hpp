@@ -36,6 +36,7 @@ public:
     // Without the events of the row that is open.
     std::size_t rows() const { return shown_.size(); }
     const EventRow& shownAt(std::size_t row) const { return rowAt(shown_[row]); }
+    std::uint64_t shownSerial(std::size_t row) const { return shown_[row]; }
 
     // A row of many events opens to one row for each of them; one is open at a time.
     void open(std::uint64_t serial);

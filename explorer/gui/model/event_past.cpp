@@ -3,6 +3,8 @@
 
 #include "cortex/core/event_memory.hpp"
 
+#include "model/shown_time.hpp"
+
 #include <algorithm>
 #include <iterator>
 #include <utility>
@@ -70,11 +72,13 @@ void EventPast::refresh(const Frame& frame) {
             asked.waits = true;
         }
         asked.lost = agent.lost();
-        const bool knowsClock = agent.image && *agent.image;
+        // An image of which nothing has come yet has no time.
+        const std::int64_t clock = agent.image && *agent.image ? (*agent.image)->wallClock() : 0;
+        const bool knowsClock = clock != 0;
         const bool waited = frame.seconds - asked.since > patienceWithClock;
         const bool answersAtOnce = agent.lost() || !agent.status.remembers;  // that it cannot
         if (!asked.waits || !(knowsClock || answersAtOnce || waited)) continue;
-        ask(agent, asked, knowsClock ? (*agent.image)->wallClock() : frame.utc);
+        ask(agent, asked, knowsClock ? clock : frame.utc);
     }
     std::erase_if(asked_, [&](const auto& each) {
         return std::ranges::none_of(
@@ -99,6 +103,7 @@ void EventPast::ask(const AgentFrame& agent, Asked& asked, std::int64_t now) {
     asked.reach.asking = true;
     asked.reach.remembers = agent.status.remembers || agent.lost();
     asked.round = ++round_;
+    asked.when = now;
     now_ = std::max(now_, now);
     past_.ask(agent.status.name, from(now), EventMemory::always, this,
               [this, name = agent.status.name, round = asked.round](comms::PastEvents past) {
@@ -119,10 +124,24 @@ void EventPast::take(const std::string& agent, std::uint64_t round, comms::PastE
     reach.since = std::move(past.since);
 }
 
+std::int64_t EventPast::valuesUntil() const {
+    std::int64_t until = 0;
+    for (const auto& [name, each] : asked_) {
+        const PastReach& reach = each.reach;
+        if (reach.asking || !reach.trouble.empty()) continue;
+        until = until == 0 ? each.when : std::min(until, each.when);
+    }
+    return until;
+}
+
 QString EventPast::reach() const {
     std::vector<PastReach> all;
     for (const auto& [name, each] : asked_) all.push_back(each.reach);
-    return reachText(all, from(now_));
+    const QString text = reachText(all, from(now_));
+    const std::int64_t until = valuesUntil();
+    if (until == 0 || isAsked()) return text;
+    return tr("Changes of values are known until %1; %2 asks again. %3")
+        .arg(timeAndZone(until, "HH:mm:ss"), name(back_), text);
 }
 
 }  // namespace cortex::gui

@@ -35,14 +35,17 @@ public:
     Back back() const { return back_; }
     void ask(Back back);  // of all agents, once more
     void refresh(const Frame& frame);
-    bool asking() const;    // not all that was asked for is among the events
-    QString reach() const;  // whose memory goes how far back, and who has none
+    bool asking() const;  // not all that was asked for is among the events
+    // Whose memory goes how far back, who has none, and until when changes of values are known:
+    // agents keep them, and do not tell them by themselves.
+    QString reach() const;
 
 private:
     struct Asked {
         PastReach reach;
         std::int64_t epoch = 0;
-        double since = 0;  // s, when it was seen first
+        std::int64_t when = 0;  // UTC ns, it was asked
+        double since = 0;       // s, when it was seen first
         bool waits = true, lost = false;
         std::uint64_t round = 0;  // tells its asks apart
     };
@@ -50,6 +53,7 @@ private:
     void take(const std::string& agent, std::uint64_t round, comms::PastEvents past);
     std::int64_t from(std::int64_t now) const;
     bool isAsked() const;
+    std::int64_t valuesUntil() const;  // UTC ns; 0: nobody has told of values
 
     Past past_;
     EventModel& events_;

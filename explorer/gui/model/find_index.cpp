@@ -25,7 +25,7 @@ constexpr int none = std::numeric_limits<int>::max();
 int rank(const std::string& word, const std::string& lower, const std::string& last,
          const std::string& type) {
     if (last == word || lower == word) return 0;
-    if (last.starts_with(word)) return 1;
+    if (last.starts_with(word) || last.find(' ' + word) != std::string::npos) return 1;
     const std::size_t at = lower.find(word);
     if (at != std::string::npos) {
         if (last.find(word) != std::string::npos) return 2;
@@ -83,7 +83,7 @@ std::vector<const Found*> FindIndex::find(const QString& words, std::size_t most
         wanted.push_back(lowered(each.toStdString()));
     }
     if (wanted.empty()) return {};
-    using Hit = std::tuple<int, FoundKind, std::size_t, std::size_t>;  // ends with the index
+    using Hit = std::tuple<bool, int, FoundKind, std::size_t, std::size_t>;  // ends with the index
     std::vector<Hit> hits;
     for (std::size_t i = 0; i < all_.size(); ++i) {
         const Entry& each = all_[i];
@@ -93,13 +93,14 @@ std::vector<const Found*> FindIndex::find(const QString& words, std::size_t most
             const int fit = rank(word, each.lower, each.last, type);
             sum = fit == none || sum == none ? none : sum + fit;
         }
-        if (sum != none) hits.emplace_back(sum, each.found.kind, each.lower.size(), i);
+        if (sum != none)
+            hits.emplace_back(each.found.discards, sum, each.found.kind, each.lower.size(), i);
     }
     const auto end = hits.begin() + static_cast<std::ptrdiff_t>(std::min(most, hits.size()));
     std::ranges::partial_sort(hits, end);
     std::vector<const Found*> found;
     for (auto hit = hits.begin(); hit != end; ++hit) {
-        found.push_back(&all_[std::get<3>(*hit)].found);
+        found.push_back(&all_[std::get<4>(*hit)].found);
     }
     return found;
 }

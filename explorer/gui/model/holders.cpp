@@ -4,6 +4,7 @@
 #include "cortex/core/path.hpp"
 
 #include "common/person_name.hpp"
+#include "model/plain_text.hpp"
 #include "session/lease.hpp"
 
 #include <QCoreApplication>
@@ -17,17 +18,7 @@ namespace {
 
 constexpr int longestInButton = 20;  // letters
 
-// A name that is written from right to left stays in its place among other words.
-QString isolated(const QString& text) {
-    const bool turns = std::ranges::any_of(text, [](QChar each) {
-        return each.direction() == QChar::DirR || each.direction() == QChar::DirAL;
-    });
-    return turns ? QChar{0x2068} + text + QChar{0x2069} : text;
-}
-
-QString shown(const std::string& name) {
-    return isolated(QString::fromStdString(common::shownName(name)));
-}
+QString shown(const std::string& name) { return isolatedText(common::shownName(name)); }
 
 QString nameWith(const std::string& name, const std::string& person) {
     return person.empty() ? shown(name) : QStringLiteral("%1 (%2)").arg(shown(person), shown(name));
@@ -112,7 +103,7 @@ bool isFree(const Frame& frame, const std::string& prefix) {
     bool any = false;
     for (const AgentFrame& agent : frame.agents) {
         if (agent.status.ended || !hasBelow(agent, prefix)) continue;
-        if (agent.lost() || !agent.came(agent.own())) return false;
+        if (agent.isSilent() || !agent.came(agent.own())) return false;
         if (leaseOfOthers(agent, prefix, {})) return false;
         any = true;
     }

@@ -2,13 +2,10 @@
 #include "model/overview.hpp"
 
 #include "cortex/core/event.hpp"
-#include "cortex/core/labelled_value.hpp"
 #include "cortex/core/path.hpp"
 
 #include "model/agent_text.hpp"
 #include "model/event_text.hpp"
-#include "model/fault_text.hpp"
-#include "model/gone_text.hpp"
 #include "model/holders.hpp"
 #include "model/permission.hpp"
 #include "model/plain_text.hpp"
@@ -28,7 +25,9 @@ namespace cortex::gui {
 namespace {
 
 constexpr std::int64_t dayLong = 86'400'000'000'000;  // ns
+constexpr std::int64_t oneAct = 5'000'000'000;        // ns, in which agents give what is asked for
 constexpr std::size_t agentsNamed = 2;
+constexpr int longestInNote = 30;  // letters, of a name
 
 constexpr std::array lastKinds{EventKind::Command, EventKind::Refusal, EventKind::Control,
                                EventKind::Loss, EventKind::Fault};
@@ -58,122 +57,39 @@ QString stateOfAgent(const AgentFrame& agent) {
     return stateWord(s);
 }
 
-// "position 2.1 rad, above 2.0944": of an array the first element that is.
-QString outsideItem(const DataItem& item, const Value& value, std::optional<Shape>& shape) {
-    const std::size_t length = std::visit([](const auto& each) { return each.size(); }, value);
-    const auto least = numberOf(item.min), most = numberOf(item.max);
-    shape = Shape::NoLabel;
-    std::size_t element = 0;
-    for (; element + 1 < length; ++element) {
-        const auto number = numberOf(value, element);
-        if (number && ((least && *number < *least) || (most && *number > *most))) break;
-    }
-    const auto number = numberOf(value, element);
-    QString name = QString::fromStdString(item.name);
-    if (item.length > 1) name += QStringLiteral("[%1]").arg(element);
-    const QString unit = item.unit.empty() ? QString{} : ' ' + unitText(item.unit);
-    const QString shown = name + ' ' + elementText(item, value, element) + unit;
-    if (number && most && *number > *most) {
-        shape = Shape::AboveLimit;
-        return onFirstPage("%1, above %2").arg(shown, numberText(item, *most));
-    }
-    if (number && least && *number < *least) {
-        shape = Shape::BelowLimit;
-        return onFirstPage("%1, below %2").arg(shown, numberText(item, *least));
-    }
-    return shown;  // "7 (no label)"
-}
-
-// The first item whose value is outside, and how many more there are.
-void tellOutside(const AgentFrame& agent, std::uint32_t simplex, OverviewRow& row) {
-    QString text;
-    int more = 0;
-    for (const ItemLayout& each : agent.structure->simplexes[simplex].layout->items) {
-        const auto value = agent.value(simplex, each);
-        if (!value || outsideText(*each.item, *value).empty()) continue;
-        if (!row.item.empty() && ++more > 0) continue;
-        row.item = each.item->name;
-        text = outsideItem(*each.item, *value, row.shape);
-    }
-    row.cells << (more == 0 ? text : onFirstPage("%1; and %2 more").arg(text).arg(more));
-}
-
-QString faultWords(const Frame& frame, Place place, const StateTimes& times) {
-    const QString code = faultCode(frame.agents[place.agent], place.simplex);
-    const QString text = faultText(frame, place, times).text;
-    const QString head = onFirstPage("Fault%1").arg(code);
-    return text.isEmpty() ? head : onFirstPage("%1: %2").arg(head, text);
-}
-
-QString lossWords(const Frame& frame, Place place) {
-    const AgentFrame& agent = frame.agents[place.agent];
-    if (agent.lost())
-        return onFirstPage("Agent %1 is lost for %2, with all that it has")
-            .arg(plainText(agent.status.name), wholeAgeText(agent.status.age));
-    const QString gone = goneInputText(frame, place);
-    if (!gone.isEmpty()) return gone;
-    const auto age = agent.age(place.simplex);
-    return age ? onFirstPage("Its values are lost for %1").arg(wholeAgeText(*age))
-               : onFirstPage("Its values are lost");
-}
-
-// Frame and abnormal are of the same moment, unless somebody mixes them.
-bool isThere(const Frame& frame, const Abnormal::Found& found) {
-    if (found.place.agent >= frame.agents.size()) return false;
-    const auto& structure = frame.agents[found.place.agent].structure;
-    return structure && found.place.simplex < structure->simplexes.size() &&
-           structure->simplexes[found.place.simplex].path == found.path;
-}
-
-OverviewRow wrongRow(const Frame& frame, Abnormal::Kind kind, const Abnormal::Found& found,
-                     const StateTimes& times) {
-    const AgentFrame& agent = frame.agents[found.place.agent];
-    OverviewRow row{std::to_string(kind) + '\n' + agent.status.name + '\n' + found.path,
-                    found.path,
-                    kind == Abnormal::Fault ? Shape::Fault : Shape::Lost,
-                    {plainText(found.path)}};
-    if (kind == Abnormal::Fault) row.cells << faultWords(frame, found.place, times);
-    if (kind == Abnormal::Outside) tellOutside(agent, found.place.simplex, row);
-    if (kind == Abnormal::Lost) row.cells << lossWords(frame, found.place);
-    if (frame.find(found.path) == found.place) return row;
-    // Another agent has the path as well, and is what is opened.
-    row.item.clear();
-    row.cells.back() = onFirstPage("Of %1: %2").arg(plainText(agent.status.name), row.cells.back());
-    return row;
-}
-
-// Paths that two agents have, both of which are heard.
-std::vector<const comms::Contested*> doubled(const Frame& frame) {
-    const auto isHeard = [&](const std::string& name) {
-        return std::ranges::any_of(frame.agents, [&](const AgentFrame& agent) {
-            return agent.status.name == name && !agent.lost();
-        });
-    };
-    std::vector<const comms::Contested*> found;
-    for (const comms::Contested& each : frame.contested)
-        if (std::ranges::count_if(each.agents, isHeard) > 1) found.push_back(&each);
-    return found;
-}
-
-// So many of them, and the row that says how many there are more.
-template <class Found, class Row>
-void addSome(OverviewRows& rows, const std::vector<Found>& all, const std::string& kind,
-             const std::string& next, Row row) {
-    for (std::size_t i = 0; i < std::min(all.size(), mostWrongOfAKind); ++i) row(all[i]);
-    if (all.size() <= mostWrongOfAKind) return;
-    const QString more = countText(all.size() - mostWrongOfAKind);
-    rows.push_back(
-        {kind + "\nmore",
-         next,
-         std::nullopt,
-         {onFirstPage("and %1 more").arg(more), onFirstPage("F8 goes from one to the next")}});
-}
-
-// What somebody holds under one prefix.
+// What somebody took under one prefix in one act.
 struct HeldPart {
-    std::vector<std::string> agents;
-    std::int64_t since = 0;  // of the first of them
+    std::string prefix, holder;
+    std::int64_t since = 0;  // of the first agent
+    std::vector<std::string> agents{};
 };
+
+// When agents gave something is counted in their cycles, so it is the less exact the older it is.
+bool isOneAct(const HeldPart& part, const HeldPart& later, std::int64_t now) {
+    const std::int64_t inexact = std::max<std::int64_t>(now - part.since, 0) / 1000;
+    return part.prefix == later.prefix && part.holder == later.holder &&
+           later.since - part.since < oneAct + inexact;
+}
+
+// By prefix, holder and time.
+std::vector<HeldPart> heldParts(const Frame& frame) {
+    std::vector<HeldPart> all, parts;
+    for (const AgentFrame& agent : frame.agents)
+        for (const comms::ShownLease& each : leasesOf(agent))
+            all.push_back({each.prefix, each.holder, each.since, {agent.status.name}});
+    std::ranges::sort(all, {}, [](const HeldPart& each) {
+        return std::tie(each.prefix, each.holder, each.since);
+    });
+    for (HeldPart& each : all) {
+        const bool same = !parts.empty() && isOneAct(parts.back(), each, frame.utc);
+        if (same)
+            parts.back().agents.push_back(each.agents.front());
+        else
+            parts.push_back(std::move(each));
+    }
+    for (HeldPart& each : parts) std::ranges::sort(each.agents);
+    return parts;
+}
 
 QString ofAgents(const std::vector<std::string>& names, std::size_t all) {
     if (names.size() == all && all > 1) return onFirstPage("all %1 agents").arg(all);
@@ -211,61 +127,26 @@ OverviewRows agentRows(const Frame& frame) {
     return rows;
 }
 
-OverviewRows wrongRows(const Frame& frame, const Abnormal& abnormal, const StateTimes& times) {
-    OverviewRows rows;
-    for (const auto kind : {Abnormal::Fault, Abnormal::Outside, Abnormal::Lost}) {
-        const auto& all = abnormal.found(kind);
-        const bool many = all.size() > mostWrongOfAKind;
-        addSome(rows, all, std::to_string(kind), many ? all[mostWrongOfAKind].path : "",
-                [&](const Abnormal::Found& each) {
-                    if (isThere(frame, each)) rows.push_back(wrongRow(frame, kind, each, times));
-                });
-    }
-    const auto twice = doubled(frame);
-    const bool many = twice.size() > mostWrongOfAKind;
-    addSome(rows, twice, "twice", many ? twice[mostWrongOfAKind]->path : "",
-            [&](const comms::Contested* each) {
-                rows.push_back({"twice\n" + each->path,
-                                each->path,
-                                Shape::Contradiction,
-                                {plainText(each->path), plainText(each->text)}});
-            });
-    return rows;
-}
-
-QString wrongCount(const Frame& frame, const Abnormal& abnormal) {
-    QStringList parts;
-    const auto add = [&](std::size_t count, const char* text) {
-        if (count > 0) parts << onFirstPage(text).arg(countText(count));
-    };
-    const auto of = [&](Abnormal::Kind kind) {
-        return static_cast<std::size_t>(abnormal.count(kind));
-    };
-    add(of(Abnormal::Fault), QT_TRANSLATE_NOOP("Overview", "%1 in Fault"));
-    add(of(Abnormal::Outside), QT_TRANSLATE_NOOP("Overview", "%1 outside limits"));
-    add(of(Abnormal::Lost), QT_TRANSLATE_NOOP("Overview", "%1 lost"));
-    add(doubled(frame).size(), QT_TRANSLATE_NOOP("Overview", "%1 claimed twice"));
-    return parts.join(QStringLiteral(", "));
+QString agentIsGone(const Frame& frame, const std::string& name) {
+    const auto gone = std::ranges::find(frame.gone, name, &GoneAgent::name);
+    const bool ended = gone != frame.gone.end() && gone->ended;
+    return ended ? onFirstPage("It ended at %1.").arg(timeAndZone(gone->when, "HH:mm:ss"))
+                 : onFirstPage("It is not heard.");
 }
 
 OverviewRows controlRows(const Frame& frame) {
-    std::map<std::pair<std::string, std::string>, HeldPart> parts;  // by prefix and holder
-    for (const AgentFrame& agent : frame.agents) {
-        for (const comms::ShownLease& each : leasesOf(agent)) {
-            HeldPart& part = parts[{each.prefix, each.holder}];
-            part.since = part.agents.empty() ? each.since : std::min(part.since, each.since);
-            part.agents.push_back(agent.status.name);
-        }
-    }
     OverviewRows rows;
-    for (const auto& [whose, part] : parts) {
-        const auto& [prefix, holder] = whose;
-        const bool ours = holder == frame.control.self;
+    std::map<std::string, int> moments;  // of one part, by the key without them
+    for (const HeldPart& part : heldParts(frame)) {
+        std::string key = part.prefix + '\n' + part.holder;
+        const int moment = moments[key]++;
+        key += '\n' + std::to_string(moment);
+        const bool ours = part.holder == frame.control.self;
         const QString who = ours ? onFirstPage("you: %1").arg(ownName(frame.control))
-                                 : wholeNameOf(frame.control, holder);
-        const QString scope = prefix == "/" ? scopeText(prefix) : plainText(prefix);
-        rows.push_back({prefix + '\n' + holder,
-                        prefix,
+                                 : wholeNameOf(frame.control, part.holder);
+        const QString scope = part.prefix == "/" ? scopeText(part.prefix) : plainText(part.prefix);
+        rows.push_back({std::move(key),
+                        part.prefix,
                         std::nullopt,
                         {scope, who, ofAgents(part.agents, frame.agents.size()),
                          sinceText(frame, part.since)}});
@@ -273,13 +154,29 @@ OverviewRows controlRows(const Frame& frame) {
     return rows;
 }
 
-QString controlNote(const Frame& frame, bool held) {
+QString controlIsGone(const Frame& frame) {
+    return std::ranges::any_of(frame.agents, &AgentFrame::isSilent)
+               ? onFirstPage("No agent that is heard says so now.")
+               : onFirstPage("It is not held any more.");
+}
+
+QString controlNote(const Frame& frame, bool held, std::size_t named) {
     QStringList silent;
     for (const AgentFrame& each : frame.agents)
-        if (each.lost() && !each.status.ended) silent << plainText(each.status.name);
-    if (!silent.isEmpty())
-        return onFirstPage("Not heard, so not known of: %1.").arg(joined(silent));
-    return held ? onFirstPage("All else is held by nobody.") : QString{};
+        if (each.isSilent()) silent << cutName(plainText(each.status.name), longestInNote);
+    const auto first = static_cast<int>(std::max<std::size_t>(named, 1));
+    if (silent.isEmpty()) return held ? onFirstPage("All else is held by nobody.") : QString{};
+    QString names = joined(silent);
+    if (silent.size() > first)
+        names = onFirstPage("%1 and %2 more")
+                    .arg(silent.mid(0, first).join(QStringLiteral(", ")),
+                         QString::number(silent.size() - first));
+    return onFirstPage("Not heard, so not known of: %1.").arg(names);
+}
+
+std::string lastKey(const comms::AgentEvent& event) {
+    return event.agent + '\n' + std::to_string(event.epoch) + '\n' + std::to_string(event.number) +
+           '\n' + std::to_string(event.wallClock);
 }
 
 std::optional<OverviewRow> lastRow(const EventRow& row) {
@@ -287,13 +184,11 @@ std::optional<OverviewRow> lastRow(const EventRow& row) {
     const bool wanted =
         std::ranges::any_of(lastKinds, [&](EventKind each) { return event.kind == name(each); });
     if (!wanted || row.isGap() || row.isRoutine() || isReturn(event)) return std::nullopt;
-    const std::string key = event.agent + '\n' + std::to_string(event.epoch) + '\n' +
-                            std::to_string(event.number) + '\n' + std::to_string(event.wallClock);
     const bool isShort = row.times == 1 && tellsOfCommand(event.kind);
     QString what = isShort ? plainText(personAlone(event.text)) : row.text();
     if (row.times > 1) what += QStringLiteral("  ×") + countText(row.times);
     const QString time = shownTimeText(event.wallClock, "HH:mm:ss");
-    return OverviewRow{key,
+    return OverviewRow{lastKey(event),
                        event.path,
                        row.isFault() ? Shape::Fault : shapeOf(event.severity),
                        {time, plainText(event.path), what},

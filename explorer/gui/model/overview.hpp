@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "model/abnormal.hpp"
 #include "model/event_row.hpp"
-#include "model/state_times.hpp"
+#include "session/frame.hpp"
 #include "style/shapes.hpp"
 
 #include <QString>
 #include <QStringList>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
-// What the first page says: of agents, of what is wrong, of who controls what, of what was last.
+// What the first page says: of agents, of who controls what, of what was last.
 namespace cortex::gui {
 
 struct OverviewRow {
@@ -30,21 +31,21 @@ using OverviewRows = std::vector<OverviewRow>;
 // Name, state, rate, trouble; the worst first.
 OverviewRows agentRows(const Frame& frame);
 
-// Path, and what is wrong with it: Fault, outside of limits, lost, claimed twice. Of a lost agent
-// one stands for all; of more than so many of a kind the last row says how many there are.
-inline constexpr std::size_t mostWrongOfAKind = 100;
-OverviewRows wrongRows(const Frame& frame, const Abnormal& abnormal, const StateTimes& times);
-// "1 in Fault, 2 outside limits, 34 lost, 5 claimed twice"; empty: nothing is wrong.
-QString wrongCount(const Frame& frame, const Abnormal& abnormal);
+// What is said in the place of an agent that is not there any more, where its row is kept.
+QString agentIsGone(const Frame& frame, const std::string& name);
 
-// Prefix, who holds it, of which agents, since when.
+// Prefix, who holds it, of which agents, since when. What was taken at another moment is a row of
+// its own.
 OverviewRows controlRows(const Frame& frame);
-// What is true of the rest: held by nobody, or not known, as its agent is silent.
-QString controlNote(const Frame& frame, bool held);
+QString controlIsGone(const Frame& frame);  // where a row is kept
+// What is true of the rest: held by nobody, or not known, as its agent is silent. At most so many
+// agents are named.
+QString controlNote(const Frame& frame, bool held, std::size_t named);
 
 // Time, path, what: of commands, refusals, control, losses and faults. None: it is another event,
 // a jog command, or an input that is back.
 std::optional<OverviewRow> lastRow(const EventRow& event);
+std::string lastKey(const comms::AgentEvent& event);  // of its row
 
 // The simplex to open for a path, a prefix or an event: itself, otherwise the first one below it.
 // Empty: there is none.

@@ -12,6 +12,7 @@ namespace cortex::gui {
 namespace {
 
 constexpr int tipColumns = 90;
+constexpr QChar unseenSign{0xFFFD};
 
 // Letters beyond the first plane come in two halves.
 bool isSeen(QChar each) { return each.isPrint() || each.isSurrogate(); }
@@ -29,12 +30,30 @@ QString plainText(const std::string& text) {
 bool isPlain(const QString& text) { return std::ranges::all_of(text, isSeen); }
 
 QString isolatedText(const std::string& text) {
-    QString plain = QString::fromStdString(text);
-    std::ranges::replace_if(plain, [](QChar each) { return !isSeen(each); }, QChar{0xFFFD});
+    const QString plain = visibleText(QString::fromStdString(text));
     const bool turns = std::ranges::any_of(plain, [](QChar each) {
         return each.direction() == QChar::DirR || each.direction() == QChar::DirAL;
     });
     return turns ? QChar{0x2068} + plain + QChar{0x2069} : plain;
+}
+
+QString visibleText(const QString& text) {
+    QString visible = text;
+    std::ranges::replace_if(visible, [](QChar each) { return !isSeen(each); }, unseenSign);
+    return visible;
+}
+
+QString meantText(const QString& visible, const QString& original) {
+    const QString signs = visibleText(original);
+    if (visible.count(unseenSign) != signs.count(unseenSign)) return visible;
+    QString meant = visible;
+    int from = -1;
+    for (QChar& each : meant) {
+        if (each != unseenSign) continue;
+        from = signs.indexOf(unseenSign, from + 1);
+        each = original[from];
+    }
+    return meant;
 }
 
 QString tipText(const QString& text) {

@@ -17,6 +17,11 @@ bool isPlain(const QString& text);
 // A value among other words, whose order it does not change, also where it is from right to left.
 QString isolatedText(const std::string& text);
 
+// What is unseen or turns what stands beside it is shown as one sign each, to be edited among it;
+// and the text that was meant, as long as none of these signs was added or taken away.
+QString visibleText(const QString& text);
+QString meantText(const QString& visible, const QString& original);
+
 // For a tool tip: lines that are too long for a screen are broken at blanks.
 QString tipText(const QString& text);
 

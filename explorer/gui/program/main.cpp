@@ -65,6 +65,7 @@ int main(int argc, char** argv) {
     std::vector<RecordedItem> plotted;
     for (const std::string& each : options->plot) plotted.push_back(*recordedItem(each));
     if (!plotted.empty()) window.openPlot(plotted);
+    window.setAttribute(Qt::WA_ShowWithoutActivating, picture);  // nothing in it is chosen
     window.show();
     if (measured) return measure(window, *options);
     return picture ? writeScreenshot(window, session, *options) : QApplication::exec();

@@ -24,6 +24,7 @@ struct AgentFrame {
     std::vector<float> ages;                         // s, by simplex; negative: never came
 
     bool lost() const { return status.state == "lost"; }  // or ended
+    bool isSilent() const { return lost() && !status.ended; }
     bool beats() const;         // its loop runs, as far as was heard within a second
     std::uint32_t own() const;  // the simplex of the agent itself; noSimplex: none is known
     bool came(std::uint32_t simplex) const { return image && *image && image->came(simplex); }

@@ -81,7 +81,7 @@ void LostAgents::keep(std::vector<AgentFrame>& agents, Moment now) {
     std::map<std::string, Known> known;
     for (const AgentFrame& agent : agents) known.try_emplace(agent.status.name, agent, now);
     for (auto& [name, each] : known_) {
-        if (known.contains(name) || !each.frame.lost() || each.frame.status.ended) continue;
+        if (known.contains(name) || !each.frame.isSilent()) continue;
         AgentFrame old = each.frame.later(std::chrono::duration<double>(now - each.when).count());
         note(old);
         const bool dismissed = dismissed_.erase({name, each.frame.status.epoch}) > 0;

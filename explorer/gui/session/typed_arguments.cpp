@@ -19,4 +19,13 @@ QString TypedArguments::of(const Key& key, const DataItem& parameter) const {
                                                                             : QString{};
 }
 
+void TypedArguments::noteSent(const std::string& path, const std::string& command) {
+    for (Typed& each : all_)
+        if (each.key.path == path && each.key.command == command) each.sent = true;
+}
+
+int TypedArguments::unsent() const {
+    return static_cast<int>(std::ranges::count(all_, false, &Typed::sent));
+}
+
 }  // namespace cortex::gui

@@ -23,12 +23,15 @@ public:
     void keep(const Key& key, const DataItem& parameter, const QString& text);
     // Empty also where the parameter means something else by now.
     QString of(const Key& key, const DataItem& parameter) const;
+    void noteSent(const std::string& path, const std::string& command);
+    int unsent() const;  // those that were typed since
 
 private:
     struct Typed {
         Key key;
         DataItem parameter;  // as it was then
         QString text;
+        bool sent = false;
     };
     std::list<Typed> all_;  // newest last
 };

@@ -118,13 +118,16 @@ QWidget* AgentDetails::makeHeader() {
     auto* row = new QHBoxLayout;
     row->setSpacing(Look::units(3));
     row->addWidget(name_);
-    facts_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);  // it gives way first
-    row->addWidget(facts_, 1);
+    row->addStretch(1);
     row->addWidget(open_);
     row->addWidget(plot_);
     rows->addLayout(row);
-    troubles_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-    rows->addWidget(troubles_);  // a line that is kept for them
+    auto* second = new QHBoxLayout;
+    second->setSpacing(Look::units(3));
+    second->addWidget(facts_);
+    troubles_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);  // they have what is left
+    second->addWidget(troubles_, 1);
+    rows->addLayout(second);
     return header;
 }
 

@@ -17,14 +17,21 @@ namespace {
 
 constexpr int nameRole = Qt::UserRole, startedColumn = 4, simplexesColumn = 7, troubleColumn = 11;
 
-QStringList textsOf(const AgentFrame& agent) {
+// The day too, where it is another one than that of `now`.
+QString startText(std::int64_t started, std::int64_t now) {
+    const char* const day = "yyyy-MM-dd";
+    const bool today = shownTimeText(started, day) == shownTimeText(now, day);
+    return shownTimeText(started, today ? "HH:mm:ss" : "yyyy-MM-dd HH:mm:ss");
+}
+
+QStringList textsOf(const AgentFrame& agent, std::int64_t utc) {
     const comms::AgentStatus& s = agent.status;
     const QStringList troubles = troublesOf(s);
     return {QString::fromStdString(s.name),
             QString::fromStdString(s.host),
             stateWord(s),
             ageText(s.age),
-            shownTimeText(s.epoch * 1000, "yyyy-MM-dd HH:mm:ss"),
+            startText(s.epoch * 1000, utc),
             rateText(s),
             QString::number(s.cycle),
             QString::number(s.simplexes),
@@ -50,7 +57,7 @@ AgentTable::AgentTable(QWidget* parent) : QTreeWidget{parent} {
                      tr("Cycle"), tr("Simplexes"), tr("Types"), tr("Lost samples"), tr("Security"),
                      tr("Trouble")});
     headerItem()->setToolTip(simplexesColumn, tr(common::simplexMeaning));
-    keepWidths(*this, {28.0, 34.0, 24.0, 18.0, 44.0, 20.0, 24.0, 20.0, 16.0, 26.0, 28.0});
+    keepWidths(*this, {28.0, 20.0, 22.0, 16.0, 28.0, 20.0, 24.0, 20.0, 16.0, 26.0, 28.0});
     connect(this, &QTreeWidget::currentItemChanged, this, [this](QTreeWidgetItem* now) {
         if (filling_ || now == nullptr) return;
         chosen_ = now->data(0, nameRole).toString().toStdString();
@@ -88,9 +95,10 @@ void AgentTable::refresh(const Frame& frame) {
     while (topLevelItemCount() < count) new QTreeWidgetItem{this};
     for (int row = 0; row < count; ++row) {
         const int place = places[static_cast<std::size_t>(row)];
-        const QStringList texts = place == HeldOrder::gone
-                                      ? goneAgentTexts(order_.key(row))
-                                      : textsOf(frame.agents[static_cast<std::size_t>(place)]);
+        const QStringList texts =
+            place == HeldOrder::gone
+                ? goneAgentTexts(order_.key(row))
+                : textsOf(frame.agents[static_cast<std::size_t>(place)], frame.utc);
         topLevelItem(row)->setData(0, nameRole, QString::fromStdString(order_.key(row)));
         for (int column = 0; column < texts.size(); ++column)
             setCell(*topLevelItem(row), column, texts[column]);

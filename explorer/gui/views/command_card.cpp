@@ -268,6 +268,7 @@ void CommandCard::ask() {
 }
 
 void CommandCard::send() {
+    commands_.typed().noteSent(path_, command_.name);
     commands_.send(path_, command_.name, arguments(), command_.isLong ? longLimit : shortLimit,
                    this, [this](const CommandOutcome&) { showOutcomes(); });
     showOutcomes();

@@ -166,6 +166,14 @@ void EventTable::follow() {
     Q_EMIT moved();
 }
 
+void EventTable::choose(int row) {
+    setCurrentIndex(events_.index(row, 0));
+    scrollTo(currentIndex(), PositionAtCenter);
+    setFocus(Qt::OtherFocusReason);
+    look();
+    follows_ = false;
+}
+
 void EventTable::look() {
     follows_ = isAtEnd();
     if (follows_) forgetNew();
@@ -262,6 +270,11 @@ void EventTable::keyPressEvent(QKeyEvent* event) {
         return;
     }
     const auto row = selected();
+    if (event->key() == Qt::Key_Home && events_.rowCount() > 0) {
+        setCurrentIndex(events_.index(0, 0));
+        look();
+        return;
+    }
     const bool steps = event->key() == Qt::Key_Up || event->key() == Qt::Key_Down;
     if (!row && steps && events_.rowCount() > 0) {  // from what is in sight
         const QModelIndex last = indexAt(viewport()->rect().bottomLeft());
@@ -282,6 +295,15 @@ void EventTable::keyPressEvent(QKeyEvent* event) {
     }
     QTableView::keyPressEvent(event);
     look();
+}
+
+// Without a row that is chosen: the first step begins at what is in sight.
+void EventTable::focusInEvent(QFocusEvent* event) {
+    const bool chosen = currentIndex().isValid();
+    keeps_ = true;
+    QTableView::focusInEvent(event);
+    if (!chosen) setCurrentIndex({});
+    keeps_ = false;
 }
 
 void EventTable::changeEvent(QEvent* event) {

@@ -21,6 +21,7 @@ public:
 
     bool follows() const { return follows_ && newBelow_ == 0; }
     void follow();
+    void choose(int row);                                 // as a press does; it stays in sight
     std::uint64_t newBelow() const { return newBelow_; }  // events since it stands still
     // The row that is selected, by its serial number.
     std::optional<std::uint64_t> selected() const;
@@ -37,6 +38,7 @@ protected:
     void keyPressEvent(QKeyEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
     void changeEvent(QEvent* event) override;
+    void focusInEvent(QFocusEvent* event) override;
     void leaveEvent(QEvent* event) override;
     void rowsAboutToBeRemoved(const QModelIndex& parent, int first, int last) override;
     void currentChanged(const QModelIndex& current, const QModelIndex& previous) override;

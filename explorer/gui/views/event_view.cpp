@@ -213,6 +213,10 @@ void EventView::focusFilter() {
     field_->selectAll();
 }
 
+void EventView::choose(std::uint64_t serial) {
+    if (const auto row = events_.rowOf(serial)) rows_->choose(*row);
+}
+
 void EventView::askForFile() {
     auto* dialog = new QFileDialog{
         this, tr("Write the events that are shown"), {}, tr("Comma-separated values (*.csv)")};

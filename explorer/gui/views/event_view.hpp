@@ -31,6 +31,7 @@ public:
 
     void refresh();
     void focusFilter();
+    void choose(std::uint64_t serial);   // with its details, and the keyboard is there
     void exportTo(const QString& file);  // says what became of it
 
 Q_SIGNALS:

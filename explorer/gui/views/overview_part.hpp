@@ -18,17 +18,20 @@ class OverviewPart : public QWidget {
     Q_OBJECT
 public:
     OverviewPart(const QString& title, std::vector<OverviewTable::Column> columns,
-                 const QString& gone, const QString& none, QWidget* parent = nullptr);
+                 const QString& none, QWidget* parent = nullptr);
 
     OverviewTable& table() { return *table_; }
-    void show(const OverviewRows& rows, const QString& count);
+    void show(const OverviewRows& rows, const QString& count, const OverviewTable::Gone& gone = {});
     using QWidget::show;
     void addToTitle(QWidget& widget);  // at its end
+    void addBelow(TextLabel& note);    // its lines have room, whatever it says
     void setLeastRows(int rows);
+    bool hasHeightForWidth() const override { return false; }  // what it says gives it no size
 
 private:
     TextLabel* count_;
-    QHBoxLayout* head_;
+    TextLabel* note_ = nullptr;
+    QHBoxLayout *head_, *foot_;
     QStackedWidget* content_;
     OverviewTable* table_;
 };

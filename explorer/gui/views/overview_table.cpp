@@ -7,6 +7,7 @@
 #include <QEvent>
 #include <QFocusEvent>
 #include <QHeaderView>
+#include <QKeyEvent>
 #include <QStyledItemDelegate>
 #include <algorithm>
 #include <utility>
@@ -55,9 +56,8 @@ private:
     }
 };
 
-OverviewTable::OverviewTable(const QString& name, std::vector<Column> columns, QString gone,
-                             QWidget* parent)
-    : QTreeWidget{parent}, columns_{std::move(columns)}, gone_{std::move(gone)} {
+OverviewTable::OverviewTable(const QString& name, std::vector<Column> columns, QWidget* parent)
+    : QTreeWidget{parent}, columns_{std::move(columns)} {
     setUpRows(*this);
     setRootIsDecorated(false);
     setItemDelegate(new Delegate{this});
@@ -70,14 +70,13 @@ OverviewTable::OverviewTable(const QString& name, std::vector<Column> columns, Q
     setHeaderLabels(titles);
     const auto open = [this](const QTreeWidgetItem* item) {
         const auto told = [&](int role) { return item->data(0, role).toString().toStdString(); };
-        if (!told(OpensRole).empty())
-            Q_EMIT opened({told(KeyRole), told(OpensRole), {}, {}, told(ItemRole)});
+        Q_EMIT opened({told(KeyRole), told(OpensRole), {}, {}, told(ItemRole)});
     };
     connect(this, &QTreeWidget::itemClicked, this, open);
     connect(this, &QTreeWidget::itemActivated, this, open);
 }
 
-bool OverviewTable::isUsed() const { return gui::isUsed(*this); }
+bool OverviewTable::isUsed() const { return gui::isUsed(*this) && (underMouse() || !begins_); }
 
 void OverviewTable::setTitle(int column, const QString& title) {
     if (headerItem()->text(column) == title) return;
@@ -103,16 +102,17 @@ void OverviewTable::fill(QTreeWidgetItem& item, const OverviewRow& row) {
 }
 
 // What it was stays, what was said of it does not.
-void OverviewTable::leave(QTreeWidgetItem& item) {
-    if (item.data(0, GoneRole).toBool()) return;
-    item.setData(0, GoneRole, true);
-    item.setData(0, ShapeRole, {});
-    item.setData(0, Qt::AccessibleTextRole, {});
+void OverviewTable::leave(QTreeWidgetItem& item, const QString& text) {
+    if (!item.data(0, GoneRole).toBool()) {
+        item.setData(0, GoneRole, true);
+        item.setData(0, ShapeRole, {});
+        item.setData(0, Qt::AccessibleTextRole, {});
+    }
     for (int column = 1; column < columnCount(); ++column)
-        setCell(item, column, column == restColumn() ? gone_ : QString{});
+        setCell(item, column, column == restColumn() ? text : QString{});
 }
 
-void OverviewTable::show(const OverviewRows& rows) {
+void OverviewTable::show(const OverviewRows& rows, const Gone& gone) {
     const bool held = isUsed();
     std::vector<std::string> keys;
     keys.reserve(rows.size());
@@ -129,7 +129,7 @@ void OverviewTable::show(const OverviewRows& rows) {
         const QString key = QString::fromStdString(order_.key(row));
         if (item.data(0, KeyRole) != key) item.setData(0, KeyRole, key);
         if (place == HeldOrder::gone) {
-            leave(item);
+            leave(item, gone ? gone(order_.key(row)) : QString{});
             continue;
         }
         const OverviewRow& shown = rows[static_cast<std::size_t>(place)];
@@ -206,9 +206,15 @@ void OverviewTable::changeEvent(QEvent* event) {
 // Where the keyboard comes to it, it is seen which row Enter opens.
 void OverviewTable::focusInEvent(QFocusEvent* event) {
     QTreeWidget::focusInEvent(event);
+    begins_ = event->reason() == Qt::OtherFocusReason;
     if (event->reason() == Qt::MouseFocusReason || topLevelItemCount() == 0) return;
     if (selectedItems().isEmpty())
         setCurrentItem(topLevelItem(keepsNewest_ ? topLevelItemCount() - 1 : 0));
+}
+
+void OverviewTable::keyPressEvent(QKeyEvent* event) {
+    begins_ = false;
+    QTreeWidget::keyPressEvent(event);
 }
 
 }  // namespace cortex::gui

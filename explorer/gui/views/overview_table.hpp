@@ -5,6 +5,7 @@
 #include "model/overview.hpp"
 
 #include <QTreeWidget>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,13 +24,16 @@ public:
         QString widest{};  // that may come: it has room from the start
     };
 
-    OverviewTable(const QString& name, std::vector<Column> columns, QString gone,
-                  QWidget* parent = nullptr);
+    // Of a row that is kept: what is said in its place.
+    using Gone = std::function<QString(const std::string& key)>;
 
-    void show(const OverviewRows& rows);
+    OverviewTable(const QString& name, std::vector<Column> columns, QWidget* parent = nullptr);
+
+    void show(const OverviewRows& rows, const Gone& gone = {});
     using QWidget::show;
     void setTitle(int column, const QString& title);
-    bool isUsed() const;                        // pointer or keyboard is in it
+    // Pointer or keyboard is in it, and not only as the window begins there.
+    bool isUsed() const;
     void keepNewest() { keepsNewest_ = true; }  // in sight: it is the last row
 
 Q_SIGNALS:
@@ -39,20 +43,21 @@ protected:
     void resizeEvent(QResizeEvent* event) override;
     void changeEvent(QEvent* event) override;
     void focusInEvent(QFocusEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
 
 private:
     class Delegate;
     void fill(QTreeWidgetItem& item, const OverviewRow& row);
-    void leave(QTreeWidgetItem& item);
+    void leave(QTreeWidgetItem& item, const QString& text);
     void chooseAgain(const QString& key);
     void fitColumns();
     int neededWidth(int column) const;
     int restColumn() const;
 
     std::vector<Column> columns_;
-    QString gone_;
     HeldOrder order_;
     bool keepsNewest_ = false;
+    bool begins_ = false;  // nobody has used the keyboard in it yet
 };
 
 }  // namespace cortex::gui

@@ -4,6 +4,7 @@
 #include "model/nothing_text.hpp"
 #include "model/plain_text.hpp"
 #include "model/shown_time.hpp"
+#include "model/wrong_rows.hpp"
 #include "style/look.hpp"
 #include "views/overview_part.hpp"
 #include "widgets/empty_page.hpp"
@@ -27,6 +28,8 @@ constexpr double twoColumns = 210;                 // units, from which on there
 constexpr int leastRows = 4, leastRowsLow = 3;     // of a part, below which the page scrolls
 constexpr int sinceOfControl = 3, timeOfLast = 0;  // columns whose titles have a zone
 
+constexpr std::size_t mostNamed = 20;  // agents that are not heard
+
 QString countOf(const OverviewRows& rows) { return countText(rows.size()); }
 
 std::array<OverviewPart*, 4> makeParts() {
@@ -37,22 +40,18 @@ std::array<OverviewPart*, 4> makeParts() {
                           {tr("State"), Fit::Whole, tr("lost for 59 min")},
                           {tr("Rate"), Fit::Whole, tr("1000 of 1000 Hz")},
                           {tr("Trouble"), Fit::Rest}},
-                         tr("It is not heard."),
                          tr("No agent is heard.")},
         new OverviewPart{tr("What is wrong"),
                          {{tr("Simplex"), Fit::Share}, {tr("What"), Fit::Rest}},
-                         tr("It is over."),
                          tr("Nothing is in Fault, outside its limits, lost, or claimed twice.")},
         new OverviewPart{tr("Who controls what"),
                          {{tr("Part"), Fit::Share},
                           {tr("Held by"), Fit::Rest},
                           {tr("Of"), Fit::Share},
                           {{}, Fit::Whole}},
-                         tr("It is not held any more."),
                          tr("Nobody controls anything.")},
         new OverviewPart{tr("Last commands and losses"),
                          {{{}, Fit::Whole}, {tr("Path"), Fit::Share}, {tr("What"), Fit::Rest}},
-                         {},
                          tr("There was no command and no loss yet.")}};
 }
 
@@ -87,7 +86,8 @@ OverviewView::OverviewView(const Abnormal& abnormal, const StateTimes& times,
     connect(allEvents_, &Link::clicked, this, &OverviewView::eventsOpened);
     connect(&parts_[Agents]->table(), &OverviewTable::opened, this,
             [this](const OverviewRow& row) { Q_EMIT agentOpened(row.opens); });
-    for (const Part each : {Wrong, InControl, Last})
+    connect(&parts_[Last]->table(), &OverviewTable::opened, this, &OverviewView::eventOpened);
+    for (const Part each : {Wrong, InControl})
         connect(&parts_[each]->table(), &OverviewTable::opened, this, &OverviewView::openAt);
     connect(qApp, &QApplication::focusChanged, this, [this](QWidget*, QWidget* now) {
         if (now == nullptr || !area_->isAncestorOf(now)) return;
@@ -106,7 +106,7 @@ QWidget* OverviewView::makeContent() {
            "moved in the tab Jog of a controller."));
     parts_[Last]->addToTitle(*allEvents_);
     parts_[Last]->table().keepNewest();
-    parts_[InControl]->addToTitle(*note_);
+    parts_[InControl]->addBelow(*note_);
     auto* content = new QWidget;
     auto* rows = new QVBoxLayout{content};
     introRow_->addWidget(intro_);
@@ -165,19 +165,30 @@ void OverviewView::refresh(const std::shared_ptr<const Frame>& frame) {
 // As often as states are looked at: what comes faster cannot be read.
 void OverviewView::showParts(const Frame& frame) {
     const OverviewRows agents = agentRows(frame), control = controlRows(frame);
-    parts_[Agents]->show(agents, countOf(agents));
-    parts_[Wrong]->show(wrongRows(frame, abnormal_, times_), wrongCount(frame, abnormal_));
+    parts_[Agents]->show(agents, countOf(agents),
+                         [&](const std::string& name) { return agentIsGone(frame, name); });
+    parts_[Wrong]->show(wrongRows(frame, abnormal_, times_), wrongCount(frame, abnormal_),
+                        [&](const std::string& key) { return wrongIsOver(frame, key); });
     const QString zone = zoneName(frame.utc);
     parts_[InControl]->table().setTitle(sinceOfControl, tr("Since (%1)").arg(zone));
-    parts_[InControl]->show(control, countOf(control));
-    note_->show(controlNote(frame, !control.empty()));
+    parts_[InControl]->show(control, countOf(control),
+                            [&](const std::string&) { return controlIsGone(frame); });
+    tellOfRest(frame, !control.empty());
     parts_[Last]->table().setTitle(timeOfLast, tr("Time (%1)").arg(zone));
     const OverviewRows& last = last_.update(parts_[Last]->table().isUsed());
     parts_[Last]->show(last, countOf(last));
 }
 
+// It names as many agents as there is room for.
+void OverviewView::tellOfRest(const Frame& frame, bool held) {
+    std::size_t named = mostNamed;
+    while (named > 1 && !note_->fits(controlNote(frame, held, named))) --named;
+    note_->show(controlNote(frame, held, named));
+}
+
 // What is no simplex itself, such as a prefix, leads to the first one below it.
 void OverviewView::openAt(const OverviewRow& row) {
+    if (row.opens.empty()) return;
     if (row.opens == "/") return Q_EMIT agentOpened({});
     if (!row.item.empty()) return Q_EMIT itemOpened(row.opens, row.item);
     const std::string found = simplexAt(*frame_, row.opens);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "model/abnormal.hpp"
 #include "model/last_events.hpp"
+#include "model/state_times.hpp"
 
 #include <QScrollArea>
 #include <QWidget>
@@ -29,11 +31,13 @@ public:
     OverviewView(const Abnormal& abnormal, const StateTimes& times, const EventModel& events,
                  QWidget* parent = nullptr);
     void refresh(const std::shared_ptr<const Frame>& frame);
+    void openAt(const OverviewRow& row);  // its simplex
 
 Q_SIGNALS:
     void opened(const std::string& path);
     void itemOpened(const std::string& path, const std::string& item);
     void agentOpened(const std::string& name);  // empty: all agents
+    void eventOpened(const OverviewRow& row);   // by its key
     void eventsOpened();
 
 protected:
@@ -44,7 +48,7 @@ private:
     enum Part { Agents, Wrong, InControl, Last, PartCount };
     QWidget* makeContent();
     void showParts(const Frame& frame);
-    void openAt(const OverviewRow& row);
+    void tellOfRest(const Frame& frame, bool held);
     void arrange();
 
     const Abnormal& abnormal_;

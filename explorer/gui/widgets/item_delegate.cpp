@@ -141,7 +141,7 @@ QWidget* ItemDelegate::createEditor(QWidget* parent, const QStyleOptionViewItem&
     auto* hint = new EntryHint{*field};
     connect(field, &QLineEdit::textChanged, hint, [this, field, hint, row] {
         QString why;
-        const bool means = field->follow(items_.entered(row, field->text(), why).has_value());
+        const bool means = field->follow(items_.entered(row, field->value(), why).has_value());
         field->setProperty(wrongInput, !means);
         hint->say(means ? QString{} : why);
         field->update();
@@ -157,7 +157,7 @@ void ItemDelegate::setEditorData(QWidget* editor, const QModelIndex& index) cons
 void ItemDelegate::setModelData(QWidget* editor, QAbstractItemModel* model,
                                 const QModelIndex& index) const {
     const auto* field = static_cast<ItemField*>(editor);
-    model->setData(index, field->isAsFilled() ? index.data(Qt::EditRole) : field->text());
+    model->setData(index, field->isAsFilled() ? index.data(Qt::EditRole) : field->value());
 }
 
 // Nothing is sent by a click: the value is entered.

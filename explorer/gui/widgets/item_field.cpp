@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "widgets/item_field.hpp"
 
+#include "model/plain_text.hpp"
 #include "model/value_text.hpp"
 #include "widgets/choice_list.hpp"
 
@@ -38,8 +39,10 @@ void ItemField::complete() {
 void ItemField::fill(const QString& text) {
     if (filled_) return;
     filled_ = text;
-    setText(text);
+    setText(visibleText(text));
 }
+
+QString ItemField::value() const { return meantText(text(), filled_.value_or(QString{})); }
 
 ItemField::Kept ItemField::kept() const {
     Kept kept{path_, item_, element_, whole_, filled_, text(), cursorPosition()};

@@ -33,7 +33,9 @@ public:
     ~ItemField() override;
 
     void fill(const QString& text);  // the first time only
-    bool isAsFilled() const { return !isModified() && text() == filled_; }
+    bool isAsFilled() const { return !isModified() && value() == filled_; }
+    // What is meant: what is unseen in it has a sign in the field, and is as it was.
+    QString value() const;
     Kept kept() const;
     void restore(const Kept& kept);
     // The text has changed, and is a value or not. True: with the list it means one.

@@ -126,7 +126,7 @@ void ItemTable::closeEditor(QWidget* editor, QAbstractItemDelegate::EndEditHint 
     QModelIndex next = currentIndex();
     do {
         next = hint == Delegate::EditNextItem ? indexBelow(next) : indexAbove(next);
-    } while (next.isValid() && !items_.settable(next));
+    } while (next.isValid() && (!items_.settable(next) || isExpanded(next.siblingAtColumn(0))));
     if (!next.isValid()) return;
     setCurrentIndex(next.siblingAtColumn(ItemModel::Value));
     QTreeView::edit(currentIndex());

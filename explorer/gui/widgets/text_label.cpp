@@ -108,11 +108,12 @@ void TextLabel::paintEvent(QPaintEvent* /*event*/) {
     painter.drawText(rect(), static_cast<int>(alignment()) | Qt::TextSingleLine, shown);
 }
 
+bool TextLabel::fits(const QString& text) const {
+    return heightOf(text, font(), width()) <= height();
+}
+
 // What has no room in all lines is cut with an ellipsis.
 void TextLabel::paintLines(QPainter& painter) {
-    const auto fits = [this](const QString& text) {
-        return heightOf(text, font(), width()) <= height();
-    };
     const auto cut = [this](int length) {
         return text().left(length).trimmed() + QStringLiteral("…");
     };

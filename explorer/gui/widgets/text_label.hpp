@@ -29,6 +29,7 @@ public:
     QSize minimumSizeHint() const override;
     int heightForWidth(int width) const override;  // with all its lines
     int heightOfLines(int count) const;
+    bool fits(const QString& text) const;  // in its lines
 
 protected:
     void paintEvent(QPaintEvent* event) override;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "widgets/value_field.hpp"
 
+#include "model/plain_text.hpp"
 #include "model/value_text.hpp"
 #include "style/explorer_style.hpp"
 #include "style/look.hpp"
@@ -84,7 +85,7 @@ void ValueField::goToChosen() {
 void ValueField::addField() {
     field_ = new QLineEdit;
     field_->setAccessibleName(QString::fromStdString(item_.name));
-    if (item_.hasDefault) field_->setPlaceholderText(entryText(item_, item_.initial));
+    if (item_.hasDefault) field_->setPlaceholderText(visibleText(entryText(item_, item_.initial)));
     if (item_.length > 1) {
         field_->setToolTip(
             tr("%n values with blanks between them", nullptr, static_cast<int>(item_.length)));

@@ -10,6 +10,7 @@
 #include <QPushButton>
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace cortex::gui {
 
@@ -18,7 +19,6 @@ namespace {
 constexpr int momentOfMouse = 500;  // ms, in which nobody has seen it yet
 constexpr int momentOfPress =
     1500;  // ms, in which a hand may still be on its way to another button
-constexpr double leastForBoth = 300;  // units, for both texts and all buttons in one row
 
 }  // namespace
 
@@ -152,40 +152,48 @@ void ControlNotice::cutRemedy(int most) {
     remedy_->setToolTip(cut == offered_ ? QString{} : tipText(offered_));
 }
 
-// The buttons are low, so that the room that is kept is small, and stay where they are whatever is
-// said. Where there are both texts, what became of the order has what it needs, at most half. In a
-// low window it stands above, as it does in a narrow one where it has a button; then those of the
-// other text stand below. Returns the height of all.
+// The form that takes the least height, which is returned.
 int ControlNotice::placeTexts(int width, bool low) {
+    cutRemedy(width * 2 / 5);
+    const bool both = !told_->isHidden() && !text_->isHidden();
+    if (!both) return arrange(width, Form::Beside);
+    std::vector<std::pair<int, Form>> forms;
+    for (const Form each : {Form::Beside, Form::Above, Form::Apart})
+        if (!low || each != Form::Beside) forms.emplace_back(arrange(width, each), each);
+    return arrange(width, std::ranges::min(forms).second);
+}
+
+// The buttons are low, so that the room that is kept is small, and stay where they are whatever is
+// said. Beside the other text, what became of the order has what it needs, at most half.
+int ControlNotice::arrange(int width, Form form) {
     const int gap = Look::units(2), left = Look::units(4), kept = keptHeight();
     const bool both = !told_->isHidden() && !text_->isHidden(), offers = !again_->isHidden();
-    const bool stacked = both && (low || (offers && width < Look::units(leastForBoth)));
-    const bool below = stacked && offers;
-    cutRemedy(width * 2 / 5);
+    const bool beside = form == Form::Beside, apart = form == Form::Apart && offers;
     placeButtons({close_}, width - gap, 0);
     // Its place is kept: no other button ever stands there.
     const int besideClose = width - 2 * gap - close_->sizeHint().width();
     int right = besideClose;
-    if (!below) right = placeButtons({refuse_, remedy_}, right, 0);
+    if (!apart) right = placeButtons({refuse_, remedy_}, right, 0);
+    if (form == Form::Above) right = placeButtons({again_}, right, 0);
 
-    const int again = offers ? gap + again_->sizeHint().width() : 0;
+    const int again = offers && form != Form::Above ? gap + again_->sizeHint().width() : 0;
     const int needed = QFontMetrics{told_->font()}.horizontalAdvance(told_->text()) + 2;
-    const int room = (both && !stacked ? (right - left) / 2 : right - left) - again;
+    const int room = (both && beside ? (right - left) / 2 : right - left) - again;
     const int end = left + std::min(needed, room);
-    placeButtons({again_}, end + again, 0);
+    if (again > 0) placeButtons({again_}, end + again, 0);
     const auto put = [](TextLabel& label, int from, int to) {
         const int wide = std::max(to - from, 1);
         label.setGeometry(from, 0, wide, label.heightForWidth(wide));
         return label.isHidden() ? 0 : label.height();
     };
-    const int told = put(*told_, left, end), first = below ? std::max(told, kept) : told;
-    if (below) right = placeButtons({refuse_, remedy_}, besideClose, first);
-    const int text = put(*text_, both && !stacked ? end + again + gap : left, right);
-    const int second = below ? std::max(text, kept) : text;
-    const int all = std::max(kept, stacked ? first + second : std::max(told, text));
-    const int top = stacked ? (all - first - second) / 2 : 0;
-    told_->move(told_->x(), top + ((stacked ? first : all) - told) / 2);
-    text_->move(text_->x(), stacked ? top + first + (second - text) / 2 : (all - text) / 2);
+    const int told = put(*told_, left, end), first = apart ? std::max(told, kept) : told;
+    if (apart) right = placeButtons({refuse_, remedy_}, besideClose, first);
+    const int text = put(*text_, both && beside ? end + again + gap : left, right);
+    const int second = apart ? std::max(text, kept) : text;
+    const int all = std::max(kept, beside ? std::max(told, text) : first + second);
+    const int top = beside ? 0 : (all - first - second) / 2;
+    told_->move(told_->x(), top + ((beside ? all : first) - told) / 2);
+    text_->move(text_->x(), beside ? (all - text) / 2 : top + first + (second - text) / 2);
     return all;
 }
 

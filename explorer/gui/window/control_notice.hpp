@@ -48,6 +48,9 @@ protected:
     bool eventFilter(QObject* object, QEvent* event) override;
 
 private:
+    // Of both texts: beside one another; one above the other, with all buttons beside them; the
+    // same, with the buttons of each beside it.
+    enum class Form { Beside, Above, Apart };
     using Shown = std::tuple<QPushButton*, QString, QRect>;
 
     bool isEmpty() const;
@@ -59,6 +62,7 @@ private:
     int placeButtons(std::initializer_list<QPushButton*> buttons, int right, int top);
     void cutRemedy(int most);
     int placeTexts(int width, bool low);
+    int arrange(int width, Form form);
 
     QWidget* place_;
     std::vector<QWidget*> left_;

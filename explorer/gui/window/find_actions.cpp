@@ -20,10 +20,11 @@ std::vector<FindAction> actionsOf(QMenu& menu) {
         if (each->property(onlyInMenu).toBool()) continue;
         const QString text = QString{each->text()}.replace(QLatin1String{"&&"}, QLatin1String{"&"});
         const QString between = QStringLiteral("  ");  // an entry and its keys
-        all.push_back(
-            {text.section(between, 0, 0), text.section(between, 1), [action = QPointer{each}] {
-                 if (action) action->trigger();
-             }});
+        all.push_back({text.section(between, 0, 0), text.section(between, 1),
+                       [action = QPointer{each}] {
+                           if (action) action->trigger();
+                       },
+                       each->property(discardsSomething).toBool()});
     }
     return all;
 }

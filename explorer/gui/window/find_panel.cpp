@@ -128,7 +128,7 @@ FindPanel* openFindPanel(const Frame& frame, const std::vector<PageKind>& kinds,
     }
     for (std::size_t i = 0; i < actions.size(); ++i) {
         index.add({FoundKind::Action, std::to_string(i), actions[i].text.toStdString(),
-                   actions[i].keys.toStdString()});
+                   actions[i].keys.toStdString(), actions[i].discards});
     }
     auto* panel = new FindPanel{std::move(index), button.window()};
     panel->openBelow(button.isVisible() ? button : *button.parentWidget());

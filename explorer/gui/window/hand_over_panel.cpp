@@ -60,8 +60,9 @@ QString whatText(const Control& control) {
     for (const std::string& each : control.prefixes()) scopes << scopeText(each);
     if (scopes.isEmpty()) return HandOverPanel::tr("You hold nothing any longer.");
     if (scopes.size() == 1)
-        return HandOverPanel::tr("A click hands over %1 to:").arg(scopes.front());
-    return HandOverPanel::tr("A click hands over everything that you hold, %1, to:")
+        return HandOverPanel::tr("A click, or Enter twice, hands over %1 to:").arg(scopes.front());
+    return HandOverPanel::tr(
+               "A click, or Enter twice, hands over everything that you hold, %1, to:")
         .arg(joined(scopes));
 }
 

@@ -104,7 +104,7 @@ void LayoutKeeper::reset() {
 
 void LayoutKeeper::goBack() {
     if (!before_) return;
-    restore(*std::exchange(before_, std::nullopt));
+    restore(*std::exchange(before_, arranged_.saved()));
     noteChange();
 }
 

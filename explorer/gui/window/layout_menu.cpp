@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "window/layout_menu.hpp"
 
+#include "window/find_actions.hpp"
 #include "window/layout_keeper.hpp"
 
 #include <QAction>
@@ -54,9 +55,10 @@ void showNamed(QMenu& menu, LayoutKeeper& layout, int fixed) {
 }  // namespace
 
 void addLayout(QMenu& menu, LayoutKeeper& layout) {
-    menu.addAction(layoutEntry("Reset"), &layout, &LayoutKeeper::reset);
+    QAction* reset = menu.addAction(layoutEntry("Reset"), &layout, &LayoutKeeper::reset);
     QAction* back = menu.addAction(layoutEntry("Back to the layout before this one"), &layout,
                                    &LayoutKeeper::goBack);
+    for (QAction* each : {reset, back}) each->setProperty(discardsSomething, true);
     menu.addAction(layoutEntry("Save as…"), &layout,
                    [&menu, &layout] { askWhereToSave(menu, layout); });
     menu.addAction(layoutEntry("Open…"), &layout,

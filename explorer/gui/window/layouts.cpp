@@ -120,10 +120,11 @@ std::optional<QJsonObject> Layouts::readOwn(const QString& name) {
     QString aside = name + QStringLiteral(".broken");
     for (int i = 2; QFile::exists(aside); ++i) aside = name + QStringLiteral(".broken-%1").arg(i);
     const bool moved = QFile::rename(name, aside);
-    troubles_ << inLayouts("The layout %1 cannot be used: %2. %3")
-                     .arg(name, trouble,
-                          moved ? inLayouts("It was set aside as %1.").arg(aside)
-                                : inLayouts("It could not be set aside; move it away."));
+    troubles_ << (moved ? inLayouts("The saved layout cannot be used: %1. It was set aside as %2.")
+                              .arg(trouble, aside)
+                        : inLayouts("The layout %1 cannot be used: %2. It could not be set aside; "
+                                    "move it away.")
+                              .arg(name, trouble));
     return std::nullopt;
 }
 

@@ -4,6 +4,7 @@
 #include "model/permission.hpp"
 #include "model/plotted_items.hpp"
 #include "model/shown_time.hpp"
+#include "session/utc_now.hpp"
 #include "style/look.hpp"
 #include "views/event_list.hpp"
 #include "views/event_view.hpp"
@@ -66,7 +67,7 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
       orders_{new Orders{session, *stop_, *control_, this}},
       bar_{new TopBar{*control_, *stop_}},
       arrangement_{*across_, *down_, [this] { layout_->noteChange(); }},
-      leaving_{*this, *control_, orders_->startAgain(), commands_.keptEdits()} {
+      leaving_{*this, *control_, orders_->startAgain(), commands_} {
     setWindowTitle(tr("CorteX Explorer"));
     arrangement_.join(*tree_, *workspace_);
     down_->addWidget(workspace_);
@@ -89,7 +90,10 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
     control_->notice().lieIn(*this, {&arrangement_.treeButton(), &arrangement_.backButton()});
 
     connect(workspace_, &Workspace::changed, layout_, &LayoutKeeper::noteChange);
-    connect(layout_, &LayoutKeeper::told, this, &MainWindow::tell);
+    connect(layout_, &LayoutKeeper::told, this, [this](const QString& text, bool trouble) {
+        tell(text, trouble);
+        if (trouble) orders_->say(text);
+    });
     connect(workspace_, &Workspace::currentChanged, this, &MainWindow::showStrip);
     connect(workspace_, &Workspace::chosen, tree_, &SystemTree::choose);
     connect(tree_, &SystemTree::chosen, this, &MainWindow::choose);
@@ -188,7 +192,7 @@ QWidget* MainWindow::current() const { return workspace_->current(); }
 void MainWindow::tell(const QString& text, bool trouble) {
     comms::AgentEvent event;
     event.agent = "cortex-explorer";
-    event.wallClock = session_.frame()->utc;
+    event.wallClock = utcNow();  // also before anything has come
     event.severity = trouble ? Severity::Warning : Severity::Info;
     event.kind = "message";
     event.path = "/";
@@ -245,6 +249,7 @@ void MainWindow::refresh() {
         others.push_back({std::move(each.prefixes), each.rate});
     }
     session_.view(std::move(wanted.usual), std::move(others));
+    if (isVisible()) begin();
     edge_->fit();
 }
 

@@ -71,6 +71,7 @@ public:
 
 protected:
     void paintEvent(QPaintEvent* event) override;
+    void showEvent(QShowEvent* event) override;
     void closeEvent(QCloseEvent* event) override;  // asks first while it is in control
     void resizeEvent(QResizeEvent* event) override;
     void keyPressEvent(QKeyEvent* event) override;  // Enter presses what has the keyboard
@@ -88,6 +89,8 @@ private:
     void restyle();
     void arrange();
     void openFound(const Found& found, bool beside);
+    void begin();  // with the keyboard
+    QWidget* tabsOf(const QWidget& view) const;
     void enter();                                  // the view in front, with the keyboard
     void tell(const QString& text, bool trouble);  // among the events
     QJsonObject saved() const;
@@ -116,6 +119,8 @@ private:
     FocusEdge* edge_;
     bool refreshing_ = false;  // just now
     bool low_ = false;
+    bool begins_ = true;
+    QPointer<QWidget> begin_;  // has the keyboard until then
     ControlBar* control_;
     Orders* orders_;
     TopBar* bar_ = nullptr;

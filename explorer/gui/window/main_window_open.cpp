@@ -14,6 +14,7 @@
 #include <QLineEdit>
 #include <QMenu>
 #include <QPushButton>
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -41,10 +42,35 @@ void MainWindow::enter() {
     if (view == nullptr) return;
     if (auto* simplex = qobject_cast<BaseView*>(view)) return simplex->enter();
     QWidget* stop = view->focusProxy() != nullptr ? view : mainStop(*view);
-    for (Pane* each : workspace_->panes()) {  // a view may have nothing for keys
-        if (stop == nullptr && each->isAncestorOf(view)) stop = &each->tabs();
-    }
+    if (stop == nullptr) stop = tabsOf(*view);  // a view may have nothing for keys
     if (stop != nullptr) stop->setFocus(Qt::TabFocusReason);
+}
+
+QWidget* MainWindow::tabsOf(const QWidget& view) const {
+    const auto& panes = workspace_->panes();
+    const auto pane =
+        std::ranges::find_if(panes, [&](const Pane* each) { return each->isAncestorOf(&view); });
+    return pane == panes.end() ? nullptr : &(*pane)->tabs();
+}
+
+// The keyboard begins at the tab of the view in front, and goes to its first rows once there are
+// some, unless a person has moved it by then.
+void MainWindow::begin() {
+    QWidget* view = current();
+    if (!begins_ || view == nullptr || QApplication::activePopupWidget() != nullptr) return;
+    begins_ = false;
+    if (focusWidget() != begin_) return;
+    if (auto* simplex = qobject_cast<BaseView*>(view)) return simplex->enter();
+    QWidget* stop = mainStop(*view);
+    begins_ = stop == nullptr || !isTable(*stop);
+    if (begins_) begin_ = stop = tabsOf(*view);
+    if (stop != nullptr) stop->setFocus(Qt::OtherFocusReason);
+}
+
+void MainWindow::showEvent(QShowEvent* event) {
+    QWidget::showEvent(event);
+    if (testAttribute(Qt::WA_ShowWithoutActivating)) begins_ = false;
+    begin();
 }
 
 void MainWindow::reopenTab() {
@@ -67,7 +93,7 @@ void MainWindow::find() {
     actions.push_back({tr("Take control…"), tr("Ctrl+T"), [this] { control_->choose(); }});
     if (control_->holds()) {
         actions.push_back(
-            {tr("Release control"), tr("Ctrl+Shift+T"), [this] { control_->release(); }});
+            {tr("Release control"), tr("Ctrl+Shift+T"), [this] { control_->release(); }, true});
     }
     find_ = openFindPanel(*session_.frame(), pageKinds(), actions, bar_->findButton());
     connect(find_, &FindPanel::chosen, this,

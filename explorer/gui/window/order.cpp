@@ -3,6 +3,7 @@
 
 #include "cortex/core/path.hpp"
 
+#include "model/holders.hpp"
 #include "model/shown_time.hpp"
 #include "session/lease.hpp"
 #include "session/utc_now.hpp"
@@ -26,15 +27,17 @@ constexpr std::size_t mostPaths = 2;  // that are named
 constexpr std::chrono::milliseconds limit = std::chrono::seconds{70};  // it may take a minute
 
 struct Words {
-    const char *command, *doing, *done, *nobody;
+    const char *command, *doing, *done, *nobody, *left;
     State goal;
 };
 constexpr Words words[] = {
     // in the order of Order::Kind
     {"shutdown", "Stopping %1: %2 of %3 in Standby", "%1 in Standby, %2 s",
-     "Nobody is heard%1: nothing was stopped.", State::Standby},
+     "Nobody is heard%1: nothing was stopped.", "not stopped, as not controlled: %1",
+     State::Standby},
     {"startup", "Starting %1: %2 of %3 Active", "%1 Active, %2 s",
-     "Nobody is heard%1: nothing was started.", State::Active},
+     "Nobody is heard%1: nothing was started.", "not started, as not controlled: %1",
+     State::Active},
 };
 
 QString say(const char* text) { return QCoreApplication::translate("Order", text); }
@@ -86,6 +89,18 @@ std::vector<std::string> permitted(const std::vector<std::string>& prefixes,
     return parts.empty() ? prefixes : parts;
 }
 
+QStringList leftOut(const Frame& frame, const std::vector<std::string>& prefixes) {
+    QStringList names;
+    for (const std::string& each : prefixes) {
+        for (const QString& name : uncontrolled(frame, each)) {
+            const auto parts = overlap({each}, frame.control.prefixesOf(name.toStdString()));
+            names << (parts.empty() ? name : say("a part of %1").arg(name));
+        }
+    }
+    names.removeDuplicates();
+    return names;
+}
+
 int inStandby(const Frame& frame, const std::string& prefix) {
     int count = 0;
     for (const AgentFrame& agent : frame.agents) {
@@ -120,6 +135,7 @@ void Order::begin(std::vector<std::string> prefixes, Whom whom, const std::strin
     worked_.clear();
     refusals_.clear();
     over_.clear();
+    left_ = whom == Whom::Held && only.empty() ? leftOut(*frame, prefixes_) : QStringList{};
     ended_.clear();
     since_.start();
     answered_.start();
@@ -130,7 +146,7 @@ void Order::begin(std::vector<std::string> prefixes, Whom whom, const std::strin
             if (hasMeant(agent, prefixes_)) over_ << QString::fromStdString(name);
             continue;
         }
-        if (kind_ == Start && agent.lost()) continue;
+        if (kind_ == Start && agent.isSilent()) continue;
         const auto parts =
             whom == Whom::All ? prefixes_ : overlap(prefixes_, frame->control.prefixesOf(name));
         for (const std::string& each : parts) tell(agent, each);
@@ -269,9 +285,10 @@ std::ptrdiff_t Order::followers(const Frame& frame) const {
 void Order::count(const Frame& frame) {
     const auto standing = followers(frame);
     text_ = say(words[kind_].doing).arg(scope()).arg(standing).arg(meant_.size());
-    const QStringList lost = unanswered(frame, true);
-    if (!lost.isEmpty()) text_ += say("; not heard: %1").arg(lost.join(", "));
+    const QStringList silent = unanswered(frame, true);
+    if (!silent.isEmpty()) text_ += say("; not heard: %1").arg(silent.join(", "));
     if (!over_.isEmpty()) text_ += say("; ended: %1").arg(over_.join(", "));
+    if (!left_.isEmpty()) text_ += "; " + say(words[kind_].left).arg(left_.join(", "));
 }
 
 // What followed, what did not and why, and when that was. What a start leaves in Standby may be
@@ -291,10 +308,12 @@ void Order::finish(const Frame& frame) {
     incomplete_ = kind_ == Stop ? !all : !parts.isEmpty();
     sinceEnd_.start();
     const QString of = part().isEmpty() ? QString{} : say(" of %1").arg(part());
-    const QString count = all ? say("All %1").arg(followed) + of
-                              : say("%1 of %2").arg(followed).arg(meant_.size()) + of;
+    const char* const every = left_.isEmpty() ? "All %1" : "All %1 that you control";
+    const QString count =
+        all ? say(every).arg(followed) + of : say("%1 of %2").arg(followed).arg(meant_.size()) + of;
     parts.prepend(say(words[kind_].done).arg(count).arg(seconds, 0, 'f', 1));
     if (!over_.isEmpty()) parts << say("ended: %1").arg(over_.join(", "));
+    if (!left_.isEmpty()) parts << say(words[kind_].left).arg(left_.join(", "));
     if (narrowed_) parts << say("you may command nothing else");
     text_ = parts.join(QStringLiteral("; "));
     text_ += ", " + timeAndZone(utcNow(), "HH:mm:ss");
@@ -314,13 +333,13 @@ QString Order::notFollowed(const Frame& frame) const {
     return all == 0 ? QString{} : say("%1 did not follow: %2").arg(all).arg(named.join(", "));
 }
 
-QStringList Order::unanswered(const Frame& frame, bool lostOnly) const {
+QStringList Order::unanswered(const Frame& frame, bool silentOnly) const {
     QStringList names;
     for (const Told& each : told_) {
         const auto agent = std::ranges::find(frame.agents, each.agent,
                                              [](const AgentFrame& one) { return one.status.name; });
-        const bool lost = agent == frame.agents.end() || agent->lost();
-        if (!each.answered && (lost || !lostOnly)) names << QString::fromStdString(each.agent);
+        const bool silent = agent == frame.agents.end() || agent->isSilent();
+        if (!each.answered && (silent || !silentOnly)) names << QString::fromStdString(each.agent);
     }
     names.removeDuplicates();
     return names;

@@ -25,6 +25,8 @@ std::vector<std::string> permitted(const std::vector<std::string>& prefixes,
 // What of it lies at and below these; it may be nothing.
 std::vector<std::string> overlap(const std::vector<std::string>& prefixes,
                                  const std::vector<std::string>& others);
+// Agents that are not controlled there, or a part of one.
+QStringList leftOut(const Frame& frame, const std::vector<std::string>& prefixes);
 // How many of them there a start would ask, of agents that are heard.
 int inStandby(const Frame& frame, const std::string& prefix);
 QString scopeWord(const std::vector<std::string>& prefixes);   // "all", "/arm", "/arm and 2 more"
@@ -34,8 +36,8 @@ QString scopeWords(const std::vector<std::string>& prefixes);  // each of them
 // agent that has something there. A stop also goes to an agent that is not heard just now: again
 // until it answers, for at most ten seconds. An agent does one such command at a time, and a newer
 // one ends it: several paths of one agent take turns. A start is sent once, as nothing may start
-// long after it was asked for. What signed rights do not cover is left out, and that is said. An
-// agent that ended as it should is not told, and nothing of it is missed.
+// long after it was asked for. What signed rights do not cover, or is not held, is left out, and
+// that is said. An agent that ended as it should is not told, and nothing of it is missed.
 class Order {
 public:
     enum Kind { Stop, Start };
@@ -79,7 +81,7 @@ private:
     void finish(const Frame& frame);
     std::ptrdiff_t followers(const Frame& frame) const;
     QString notFollowed(const Frame& frame) const;
-    QStringList unanswered(const Frame& frame, bool lostOnly) const;
+    QStringList unanswered(const Frame& frame, bool silentOnly) const;
     QString nameOf(const Meant& meant) const;  // with its agent, where several have the path
     State stateOf(const Frame& frame, const Meant& meant) const;
     bool wasReached(const Meant& meant) const;
@@ -99,6 +101,7 @@ private:
     std::vector<Meant> worked_;     // of them, when it began
     QStringList refusals_;          // "robot: …"
     QStringList over_;              // agents that have ended
+    QStringList left_;              // agents that are left out, as they are not held
     std::map<Meant, State> ended_;  // the states that its result is about
     bool incomplete_ = false;       // its result says so
 };

@@ -28,6 +28,7 @@ Orders::Orders(Session& session, StopButton& stop, ControlBar& control, QObject*
     const ControlNotice& notice = control.notice();
     connect(&control.notice().againButton(), &QPushButton::clicked, &again_, &StartAgain::begin);
     connect(&notice, &ControlNotice::outcomeClosed, this, [this] {
+        if (told().isEmpty()) said_.clear();
         if (all_.text().isEmpty()) again_.close();
         tell();
     });
@@ -40,13 +41,22 @@ void Orders::refresh(const Frame& frame, const std::vector<CommandOutcome>& outc
     tell();
 }
 
+void Orders::say(const QString& text) {
+    said_ = text;
+    tell();
+}
+
 // What a start of something else says is not about what Stop stopped.
+QString Orders::told() const {
+    for (const QString& text : {all_.text(), again_.text(), stop_.progress()})
+        if (!text.isEmpty()) return text;
+    return again_.leftText();
+}
+
 void Orders::tell() {
-    if (!all_.text().isEmpty()) return control_.notice().tell(all_.text());
-    QString text = again_.text();
-    if (text.isEmpty()) text = stop_.progress();
-    if (text.isEmpty()) text = again_.leftText();
-    control_.notice().tell(text, again_.offer());
+    const QString text = told();
+    const QString offer = all_.text().isEmpty() ? again_.offer() : QString{};
+    control_.notice().tell(text.isEmpty() ? said_ : text, offer);
 }
 
 }  // namespace cortex::gui

@@ -24,14 +24,18 @@ public:
     StartAll& startAll() { return all_; }
     StartAgain& startAgain() { return again_; }
     void refresh(const Frame& frame, const std::vector<CommandOutcome>& outcomes);
+    // In the same row, until a person closes it; what became of an order goes before it.
+    void say(const QString& text);
 
 private:
+    QString told() const;
     void tell();
 
     StopButton& stop_;
     ControlBar& control_;
     StartAll all_;
     StartAgain again_;
+    QString said_;
 };
 
 }  // namespace cortex::gui

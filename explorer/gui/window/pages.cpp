@@ -37,6 +37,18 @@ const QString ownPrefix = QStringLiteral("view:");
 
 QString titleIn(const char* text) { return QCoreApplication::translate("Pages", text); }
 
+// Whether the event is among those that are shown: it may be hidden, or no longer kept.
+bool openEvent(const PageParts& parts, const std::string& key) {
+    const EventFilter& events = parts.events;
+    std::size_t row = events.rows();
+    while (row > 0 && lastKey(events.shownAt(row - 1).event) != key) --row;
+    if (row == 0) return false;
+    const std::uint64_t serial = events.shownSerial(row - 1);
+    auto* view = qobject_cast<EventView*>(parts.kind(QStringLiteral("events")));
+    if (view != nullptr) view->choose(serial);
+    return view != nullptr;
+}
+
 Page overviewPage(const PageParts& parts) {
     auto* view = new OverviewView{parts.abnormal, parts.times, parts.events.events()};
     ManualView::helpOf(*view, titleIn("The first page"));
@@ -44,6 +56,9 @@ Page overviewPage(const PageParts& parts) {
     QObject::connect(view, &OverviewView::itemOpened, view, parts.item);
     QObject::connect(view, &OverviewView::eventsOpened, view,
                      [open = parts.kind] { open(QStringLiteral("events")); });
+    QObject::connect(view, &OverviewView::eventOpened, view, [view, parts](const OverviewRow& row) {
+        if (!openEvent(parts, row.key)) view->openAt(row);
+    });
     QObject::connect(view, &OverviewView::agentOpened, view,
                      [open = parts.kind](const std::string& name) {
                          auto* agents = qobject_cast<AgentView*>(open(QStringLiteral("agents")));

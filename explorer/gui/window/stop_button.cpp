@@ -3,7 +3,6 @@
 
 #include "cortex/core/path.hpp"
 
-#include "model/holders.hpp"
 #include "model/plain_text.hpp"
 #include "style/look.hpp"
 
@@ -20,19 +19,6 @@ namespace {
 
 constexpr int secondPress = 3000;  // ms
 const std::string everything{"/"};
-
-// Where a narrower part of such an agent is held, that part is stopped, too.
-QStringList leftOut(const Frame& frame, const std::vector<std::string>& scope) {
-    QStringList names;
-    for (const std::string& each : scope) {
-        for (const QString& name : uncontrolled(frame, each)) {
-            const auto parts = overlap({each}, frame.control.prefixesOf(name.toStdString()));
-            names << (parts.empty() ? name : StopButton::tr("a part of %1").arg(name));
-        }
-    }
-    names.removeDuplicates();
-    return names;
-}
 
 // In two lines, broken at a blank or before a "/", or anywhere; none: they have no room.
 QStringList broken(const QString& text, bool anywhere, const QFontMetrics& metrics, int room) {

@@ -98,9 +98,10 @@ QMenu* makeWindowMenu(const WindowActions& actions, QWidget* parent) {
     addTakeAgain(*menu, actions.control);
     addHandOver(*menu, actions.control);
     menu->addAction(entry("Manual"), menu, actions.openManual);
-    menu->addAction(entry("Join again"), menu,
-                    [&session = actions.session] { session.joinAgain(); });
-    menu->addAction(entry("Quit"), menu, actions.quit);
+    QAction* join = menu->addAction(entry("Join again"), menu,
+                                    [&session = actions.session] { session.joinAgain(); });
+    QAction* quit = menu->addAction(entry("Quit"), menu, actions.quit);
+    for (QAction* each : {join, quit}) each->setProperty(discardsSomething, true);
     return menu;
 }
 
