@@ -2,7 +2,6 @@
 // Links between agents over real DDS on the loopback interface.
 #include "comms/network_agent.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace cortex::comms {
@@ -75,8 +74,9 @@ TEST(DdsLink, AnAgentThatReadsMorePathsThanItCouldAskForIsRefusedInWords) {
         near.rig.start();
         FAIL() << "it was not refused";
     } catch (const Error& error) {
-        EXPECT_THAT(error.what(), testing::HasSubstr("near reads 601 simplexes of other agents"));
-        EXPECT_THAT(error.what(), testing::HasSubstr("at most 64000 can be asked for"));
+        const std::string text = error.what();
+        EXPECT_NE(text.find("near reads 601 simplexes of other agents"), text.npos) << text;
+        EXPECT_NE(text.find("at most 64000 can be asked for"), text.npos) << text;
     }
 }
 

@@ -121,7 +121,7 @@ TEST_P(MutatedDescriptions, AreRefusedOrMeanTheSame) {
 
 INSTANTIATE_TEST_SUITE_P(Files, MutatedDescriptions,
                          testing::Values(Mutated{"tests/data/schema/valid/morphology.xml", 1500},
-                                         Mutated{"tests/data/cs-rules.xml", 50}));
+                                         Mutated{"tests/data/cs-rules.xml", 100}));
 
 }  // namespace
 }  // namespace cortex
