@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/agent.hpp"
+#include "cortex/cs/testing.hpp"
 
 #include "support/probe.hpp"
 
+#include <cstdint>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -103,6 +107,21 @@ TEST(SimplexCS, FaultsWhenATransitionTakesLongerThanItsTypeAllows) {
 
     EXPECT_EQ(cluster.state("/a"), State::Fault);
     EXPECT_TRUE(cluster.hasEvent("stateStartingUp was not done within 0.005 s"));
+}
+
+TEST(SimplexCS, DoesNotCountAStandstillAmongTheTimeOfATransition) {
+    ProbeCluster cluster;
+    Probe& probe = cluster.probe("/a", "QuickProbe");
+    probe.onStartingUp = [](Probe&, const Tick&) { return false; };
+    cluster.start();
+    cluster.cluster->send("/a", "startup");
+    cs::ClusterTesting::playLate(*cluster.trigger, 50);
+
+    cluster.step(3);  // the second is worth 3 ms
+    EXPECT_EQ(cluster.state("/a"), State::StartingUp);
+    cluster.step();
+
+    EXPECT_EQ(cluster.state("/a"), State::Fault);
 }
 
 TEST(SimplexCS, ShutdownOutranksAStartupOfTheSameCycle) {
@@ -251,6 +270,25 @@ TEST(SimplexCS, RunsEveryNthCycleWithItsPhaseAndIsToldWhatElapsed) {
 
     EXPECT_EQ(cycles, (std::vector<std::int64_t>{2, 6, 10}));
     EXPECT_EQ(elapsed, (std::vector<std::int64_t>{4'000'000, 4'000'000, 4'000'000}));
+}
+
+TEST(SimplexCS, OfARateIsWorthThreeOfItsOwnPeriodsAfterAStandstill) {
+    ProbeCluster cluster;
+    std::vector<std::int64_t> passed, elapsed;
+    Probe& probe = cluster.probe("/a");
+    probe.runEvery(4, 0);
+    probe.onLoopStart = [&](Probe&, const Tick& tick) {
+        passed.push_back(tick.passed / 1'000'000);
+        elapsed.push_back(tick.elapsed / 1'000'000);
+    };
+    cluster.start();
+    for (const std::int64_t late : {0, 5, 100, 0}) {
+        cs::ClusterTesting::playLate(*cluster.trigger, late);
+        cluster.step(4);
+    }
+
+    EXPECT_EQ(passed, (std::vector<std::int64_t>{4, 4, 9, 104}));
+    EXPECT_EQ(elapsed, (std::vector<std::int64_t>{4, 4, 9, 12}));
 }
 
 TEST(SimplexCS, SpreadsPhasesOverTheRateByCanonicalOrder) {

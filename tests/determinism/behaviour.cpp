@@ -107,6 +107,7 @@ void Behaviour::talk(World& world) {
 void Behaviour::loopStart(World& world, const Tick& tick) {
     chance_.mix(bits(tick.cycle));
     chance_.mix(bits(tick.nominalTime));
+    chance_.mix(bits(tick.passed));
     chance_.mix(bits(tick.elapsed));
     if (chance_.oneIn(25)) {
         world.event(Severity::Info, std::string{"number "} + std::to_string(chance_.below(1000)));

@@ -129,7 +129,7 @@ void AgentRig::start() {
 void AgentRig::begin() {
     ++tick.cycle;
     tick.nominalTime += options_.period;
-    tick.elapsed = options_.period;
+    tick.passed = tick.elapsed = options_.period;
     agent->beginCycle(tick);
 }
 

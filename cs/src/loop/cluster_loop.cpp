@@ -153,14 +153,15 @@ void ClusterLoop::cycle(const Trigger& trigger) {
     setFloatingPointMode();
     if (trigger.periods - 1 > counted_) countMissed(trigger.periods - 1 - counted_);
     counted_ = trigger.periods > 1 ? 0 : std::max<std::int64_t>(counted_ - 1, 0);
-    const Tick tick{++cycle_, trigger.nominalTime, trigger.nominalTime - lastNominal_,
-                    trigger.lateness};
+    const std::int64_t passed = trigger.nominalTime - lastNominal_;
+    const Tick tick{++cycle_, trigger.nominalTime, passed,
+                    std::min(passed, Tick::mostPeriods * trigger_.period()), trigger.lateness};
     lastNominal_ = trigger.nominalTime;
     watchdog_->cycleBegins(tick);
     agent_.beginCycle(tick);
     reportMissed();
     warnDuty();
-    judgePace(tick.nominalTime, begin);
+    judgePace(tick, begin);
     judgeLateness(tick);
     if (rescheduler_) adoptPlan();
     const std::int64_t next = trigger_.nextDeadline();
@@ -248,8 +249,8 @@ void ClusterLoop::tell(Severity severity, const EventText& text) {
 }
 
 // A loop that is stepped by hand has only its nominal time.
-void ClusterLoop::judgePace(std::int64_t nominalTime, std::int64_t begin) {
-    if (!pace_.add(nominalTime, trigger_.realTime() ? begin : nominalTime)) return;
+void ClusterLoop::judgePace(const Tick& tick, std::int64_t begin) {
+    if (!pace_.add(tick, trigger_.realTime() ? begin : tick.nominalTime)) return;
     agent_.pace().set(pace_.rate(), pace_.overloaded());
     if (!pace_.changed()) return;
     const double due = 1e9 / static_cast<double>(trigger_.period());
@@ -257,6 +258,8 @@ void ClusterLoop::judgePace(std::int64_t nominalTime, std::int64_t begin) {
     const double rate = std::round(pace_.rate() * 10) / 10, wanted = std::round(due * 10) / 10;
     text << rate << " cycles a second";
     if (rate != wanted) text << " instead of " << wanted;
+    if (pace_.overloaded() && pace_.motion() < 0.995)
+        text << "; all motion has " << std::round(pace_.motion() * 100) << " % of its speed";
     if (pace_.overloaded()) nameLongest(text);
     tell(pace_.overloaded() ? Severity::Warning : Severity::Info, text);
 }

@@ -77,7 +77,7 @@ private:
     void reportMissed() CORTEX_REALTIME;
     void nameLongest(EventText& text) CORTEX_REALTIME;
     void warnDuty() CORTEX_REALTIME;
-    void judgePace(std::int64_t nominalTime, std::int64_t begin) CORTEX_REALTIME;
+    void judgePace(const Tick& tick, std::int64_t begin) CORTEX_REALTIME;
     void judgeLateness(const Tick& tick) CORTEX_REALTIME;
     void halt(const char* why) CORTEX_REALTIME;
     void tell(Severity severity, const EventText& text) CORTEX_REALTIME;

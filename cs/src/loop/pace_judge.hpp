@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cortex/core/realtime.hpp"
+#include "cortex/core/tick.hpp"
 
 #include <cstdint>
 
@@ -14,17 +15,18 @@ class PaceJudge {
 public:
     explicit PaceJudge(std::int64_t period);  // ns
 
-    // At the beginning of a cycle, its nominal time and that of the clock. Whether a count ended.
-    bool add(std::int64_t nominalTime, std::int64_t now) CORTEX_REALTIME;
-    double rate() const { return rate_; }  // Hz, of the last count
+    // At the beginning of a cycle, with the time of the clock, ns. Whether a count ended.
+    bool add(const Tick& tick, std::int64_t now) CORTEX_REALTIME;
+    double rate() const { return rate_; }      // Hz, of the last count
+    double motion() const { return motion_; }  // share of the time of this count that motion had
     bool overloaded() const { return overloaded_; }
     bool changed() const { return changed_; }  // by the last count
 
 private:
     std::int64_t period_, window_;
     std::int64_t since_ = -1, sinceNow_ = 0;  // the beginning of this count
-    std::int64_t cycles_ = 0;
-    double rate_ = 0;
+    std::int64_t cycles_ = 0, elapsed_ = 0;
+    double rate_ = 0, motion_ = 1;
     bool before_ = false, overloaded_ = false, changed_ = false;
 };
 

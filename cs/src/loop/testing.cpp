@@ -101,6 +101,11 @@ void TestPlant::start() {
 
 void TestPlant::step(std::int64_t cycles) { implementation_->trigger->step(cycles); }
 
+void TestPlant::standStill(std::int64_t periods) {
+    ClusterTesting::playLate(*implementation_->trigger, periods);
+    step();
+}
+
 CallResult TestPlant::call(std::string_view path, std::string_view command,
                            const Arguments& arguments) {
     const std::uint64_t sent = cluster().send(path, command, arguments);

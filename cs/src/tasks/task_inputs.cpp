@@ -76,7 +76,7 @@ SlotState TaskInputs::readUnusual(Task& task, TaskInput& input, const Tick& tick
 SlotState TaskInputs::read(Task& task, const Tick& tick) {
     SlotState sum{tick.cycle, tick.nominalTime, noSimplex, Quality::Good};
     bool anyLost = false, safe = false;
-    const bool stood = set_.standstill.nominalTime > tick.nominalTime - tick.elapsed;
+    const bool stood = set_.standstill.nominalTime > tick.nominalTime - tick.passed;
     const std::int64_t stoodStill = stood ? set_.standstill.length : 0;
     for (TaskInput& input : set_.inputsOf(task)) {
         if (input.ownerPeriod != nullptr) {

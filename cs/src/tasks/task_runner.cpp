@@ -8,6 +8,7 @@
 #include "tasks/state_machine.hpp"
 #include "tasks/unbound_handle.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <span>
@@ -123,7 +124,8 @@ bool TaskRunner::runAtTimes(Task& task, TaskThread& thread, Position& position) 
         static_cast<std::uint64_t>(tick_.cycle - 1) % details.every == details.phase;
     if (!itsTurn && !states_.allRun()) return false;
     Tick tick = tick_;
-    tick.elapsed = tick.nominalTime - std::exchange(details.lastRun, tick.nominalTime);
+    tick.passed = tick.nominalTime - std::exchange(details.lastRun, tick.nominalTime);
+    tick.elapsed = std::min(tick.passed, Tick::mostPeriods * details.every * set_.period);
     runSimplex(task, tick, thread, position);
     return true;
 }

@@ -21,8 +21,11 @@ void TaskStates::registerWatched(std::uint32_t simplex, Watched& watched) {
 void TaskStates::checkTimeout(Task& task, const Tick& tick) {
     SimplexCS& simplex = *task.simplex;
     const double timeout = simplex.type().transitionTimeout;
-    const std::int64_t passed = tick.nominalTime - set_.detailsOf(task).stateSince;
-    if (simplex.pending_.done || passed < std::llround(timeout * 1e9)) return;
+    std::int64_t& since = set_.detailsOf(task).stateSince;
+    // It did not look while the loop stood still.
+    if (since < tick.nominalTime) since += tick.passed - tick.elapsed;
+    const std::int64_t waited = tick.nominalTime - since;
+    if (simplex.pending_.done || waited < std::llround(timeout * 1e9)) return;
     EventText text{name(hookOf(simplex.state_))};
     text << " was not done within " << timeout << " s";
     simplex.enterFault(TransitionTimeout, text.view());

@@ -44,6 +44,7 @@ public:
     void start();                                       // and one cycle
 
     void step(std::int64_t cycles = 1);
+    void standStill(std::int64_t periods);  // one cycle, after which so many ticks are missed
     CallResult call(std::string_view path, std::string_view command,
                     const Arguments& arguments = {});  // steps until the answer is there
     void startUp();  // all simplexes; throws Error naming who did not follow
