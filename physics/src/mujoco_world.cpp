@@ -196,11 +196,10 @@ Outcome MujocoWorld::reset(Call&) {
 // --- each cycle ---------------------------------------------------------------------------------
 
 void MujocoWorld::loopEnd(const Tick& tick) {
-    const double seconds = tick.elapsedSeconds();
     brakeWhereNeeded();
     lead();
-    if (!stands_) step(seconds);
-    show(seconds);
+    if (!stands_) step(tick);
+    show(tick.elapsedSeconds());
     if (state() != State::StartingUp) waited_ = 0;
 }
 
@@ -230,12 +229,13 @@ void MujocoWorld::lead() {
     }
 }
 
-void MujocoWorld::step(double seconds) {
+void MujocoWorld::step(const Tick& tick) {
     const double longest = timeStep_;
-    const double needed = std::ceil(seconds / longest - roundingOfSteps);
+    const double needed = std::ceil(tick.elapsedSeconds() / longest - roundingOfSteps);
     const double steps = std::clamp(needed, 1.0, mostSteps);
-    tellIfSlow(needed > steps, seconds);
-    if (needed > steps) seconds = steps * longest;  // the rest of the time is lost
+    tellIfSlow(needed > steps, tick);
+    const double seconds =
+        needed > steps ? steps * longest : tick.elapsedSeconds();  // the rest of the time is lost
     if (seconds <= 0) return;
     const Trouble trouble = physics_->step(seconds, static_cast<int>(steps), demands_,
                                            {bandwidth_, dampingRatio_, gravityCompensation_});
@@ -249,13 +249,19 @@ void MujocoWorld::step(double seconds) {
     }
 }
 
-void MujocoWorld::tellIfSlow(bool isSlow, double seconds) {
+void MujocoWorld::tellIfSlow(bool lacksSteps, const Tick& tick) {
+    const bool isSlow = lacksSteps || tick.elapsed < tick.passed;
     slow_ = isSlow ? std::min(slow_ + 1, slowCycles + 1) : 0;
     if (slow_ != slowCycles) return;
-    event(Severity::Warning, EventText{"time is slower here than outside: a cycle has "}
-                                 << seconds << " s, and " << mostSteps << " steps of timeStep are "
-                                 << mostSteps * timeStep_.get() << " s; make timeStep "
-                                 << seconds / mostSteps << " s");
+    EventText text{"time is slower here than outside: "};
+    if (lacksSteps)
+        text << "a cycle has " << tick.elapsedSeconds() << " s, and " << mostSteps
+             << " steps of timeStep are " << mostSteps * timeStep_.get() << " s; make timeStep "
+             << tick.elapsedSeconds() / mostSteps << " s";
+    else
+        text << tick.passedSeconds() << " s passed since the last cycle, and it is worth "
+             << tick.elapsedSeconds() << " s, as the loop misses ticks; give it a lower frequency";
+    event(Severity::Warning, text);
 }
 
 EventText MujocoWorld::textOf(Trouble trouble) const {

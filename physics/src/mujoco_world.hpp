@@ -54,8 +54,8 @@ private:
     EventText whyAway(std::size_t axis) const CORTEX_REALTIME;
     void brakeWhereNeeded() CORTEX_REALTIME;
     void lead() CORTEX_REALTIME;
-    void step(double seconds) CORTEX_REALTIME;
-    void tellIfSlow(bool isSlow, double seconds) CORTEX_REALTIME;
+    void step(const Tick& tick) CORTEX_REALTIME;
+    void tellIfSlow(bool lacksSteps, const Tick& tick) CORTEX_REALTIME;
     void tellIfCarriedTwice() CORTEX_REALTIME;
     EventText textOf(Trouble trouble) const CORTEX_REALTIME;
     void fail(Trouble trouble, const EventText& text) CORTEX_REALTIME;

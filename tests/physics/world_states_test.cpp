@@ -315,6 +315,21 @@ TEST_F(AWorld, TakesAsManyEqualStepsAsACycleNeedsAndAtMostTwenty) {
     }
 }
 
+TEST_F(AWorld, SaysOnceThatItsTimeIsSlowerWhereItsLoopMissesMostTicks) {
+    begin();
+    rig->standStill(500);
+    rig->step(20);
+    EXPECT_EQ(rig->told().find("time is slower"), std::string::npos) << "once is no pace";
+    for (int i = 0; i < 20; ++i) rig->standStill(7);
+    rig->step();
+    const std::string told = rig->told(), begins = "time is slower here than outside: ";
+    const std::size_t at = told.find(begins +
+                                     "0.008 s passed since the last cycle, and it is "
+                                     "worth 0.003 s, as the loop misses ticks");
+    EXPECT_NE(at, std::string::npos) << told;
+    EXPECT_EQ(told.find(begins, at + 1), std::string::npos) << told;
+}
+
 TEST_F(AWorld, SaysOnceThatADemandBringsTheWeightThatItsDriveCarriesItself) {
     begin();
     rig->startUp();

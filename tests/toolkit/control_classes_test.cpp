@@ -132,6 +132,24 @@ TEST_F(LbrInverse, BringsTheTipToThePoseNoFasterThanTheAxesMay) {
     EXPECT_GT(fastest, 0.9);
 }
 
+TEST_F(LbrInverse, TakesTheWayOfATargetInAStandstillForNoJump) {
+    const double speed = 0.5;  // m/s, so 0.05 m in 100 ticks, where 0.02 m are a jump
+    const auto seeds = rig_.get<std::int64_t>("/inverse", "seedCount");
+    rig_.tree().at("/target").array<double>("linearVelocity")[2] = -speed;
+    Pose target = chain_.forward(lbrPosture());
+    const auto goOn = [&](int ticks) {
+        target.position.z() -= speed * ticks * 1e-3;
+        aim(target);
+    };
+    for (const int late : {0, 0, 100, 0}) {
+        rig_.standStill(late);
+        goOn(1 + late);
+    }
+    rig_.step();
+
+    EXPECT_EQ(rig_.get<std::int64_t>("/inverse", "seedCount"), seeds);
+}
+
 TEST_F(LbrInverse, BeginsAnewWhenTheArmIsElsewhere) {
     const auto seeds = rig_.get<std::int64_t>("/inverse", "seedCount");
     SerialChain::JointVector elsewhere = lbrPosture();

@@ -56,7 +56,7 @@ void InverseKinematics::readObserved() {
     }
 }
 
-// More than its velocity makes of it within the cycle, as that of a clutch which has let go.
+// More than its velocity makes of it since the last cycle, as that of a clutch which has let go.
 bool InverseKinematics::jumps(const Pose& aim, double seconds) const {
     const Twist way = difference(aimed_, aim) - target_.velocity() * seconds;
     return way.head<3>().norm() > jumpDistance || way.tail<3>().norm() > jumpAngle;
@@ -78,7 +78,7 @@ bool InverseKinematics::stateStartingUp(const Tick&) {
 void InverseKinematics::stateActive(const Tick& tick) {
     readObserved();
     const Pose aim = target_.pose();
-    if (jumps(aim, tick.elapsedSeconds()) ||
+    if (jumps(aim, tick.passedSeconds()) ||
         (observed_ - solution_).cwiseAbs().maxCoeff() > seedDistance_)
         seed();
     aimed_ = aim;

@@ -116,6 +116,7 @@ bool Ds402Processor::stateStartingUp(const Tick& tick) {
 
 void Ds402Processor::stateActive(const Tick& tick) {
     ran_ = true;
+    homed_ += tick.elapsedSeconds();
     if (isSafetyStop()) return;
     for (Axis& axis : axes_) report(axis.follow(tick.elapsedSeconds(), stepTimeout_));
 }
@@ -153,8 +154,8 @@ void Ds402Processor::stopForLostDemands(const Tick& tick) {
 }
 
 void Ds402Processor::keep(Archive& archive) {
-    archive.version("Ds402Processor", 1);
-    archive & axes_ & lastState_ & lostDemands_ & homing_ & homingEnd_ & homingFirst_;
+    archive.version("Ds402Processor", 2);
+    archive & axes_ & lastState_ & lostDemands_ & homing_ & homingEnd_ & homingFirst_ & homed_;
 }
 
 }  // namespace cortex::toolkit

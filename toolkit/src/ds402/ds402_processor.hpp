@@ -82,6 +82,7 @@ private:
     bool ran_ = false;                        // stateActive, in this cycle
     bool lostDemands_ = false;                // it did not, in the cycle before
     std::size_t homing_ = 0, homingEnd_ = 0;  // place of the axis; behind that of the last one
+    double homed_ = 0;                        // s that `home` has waited, but for standstills
     std::size_t homingFirst_ = 0;
 };
 

@@ -152,7 +152,7 @@ Outcome Ds402Processor::home(Call& call) {
         homing.stop(Result::Cancelled);
         return Outcome::Cancelled;
     }
-    if (homing.runs() && call.elapsedSeconds() > call[homeTimeout_]) homing.stop(Result::TimedOut);
+    if (homing.runs() && homed_ > call[homeTimeout_]) homing.stop(Result::TimedOut);
     return goOnHoming(call);
 }
 
@@ -169,6 +169,7 @@ Outcome Ds402Processor::beginHoming(Call& call) {
     }
     if (homing_ == homingEnd_) return call.reject(Reason::State, why.view());
     axes_[homing_].homing().begin();
+    homed_ = 0;
     return Outcome::Running;
 }
 

@@ -62,7 +62,8 @@ void PidController::stateActive(const Tick& tick) {
         const double change = measured_ - lastMeasured_;
         integral_ = integral_ + ki_ * error * seconds + (accepted_ - wanted_) * share +
                     (gain_ - kp_) * error;  // a new gain changes no output
-        derivative_ = (filterTime_ * derivative_ - kd_ * change) / (filterTime_ + seconds);
+        derivative_ =
+            (filterTime_ * derivative_ - kd_ * change) / (filterTime_ + tick.passedSeconds());
         gain_ = kp_;
         lastMeasured_ = measured_;
     }
