@@ -76,6 +76,7 @@ Reference::Reference(const Plan& plan, const TypeModel& types, Merge merge, std:
     decideRoles();
     findOrder();
     bindLinks();
+    findDevices();
     for (const int task : tasks_) fillWorld(task);
     for (RefSimplex& simplex : all_) {
         std::ranges::sort(simplex.receiving, {}, [&](const Line* line) {
@@ -274,10 +275,11 @@ void Reference::tick(std::int64_t late) {
 void Reference::cycle() {
     now_ = nextTick_++ * period;
     ++cycle_;
-    elapsed_ = now_ - lastNow_;
-    if (elapsed_ > 3 * period) {
+    const std::int64_t passed = now_ - lastNow_;
+    elapsed_ = std::min(passed, 3 * period);
+    if (passed > elapsed_) {
         stoodUntil_ = now_;
-        stood_ = elapsed_;
+        stood_ = passed;
     }
     lastNow_ = now_;
     halted_ = std::exchange(haltNext_, false);

@@ -68,7 +68,7 @@ private:
     void enter(int simplex, State to);
     void enterFault(int simplex);
     void fault(int simplex, std::int64_t code, std::string_view text);
-    SlotState readInputs(int simplex, std::int64_t elapsed);
+    SlotState readInputs(int simplex, std::int64_t passed);
     void inputLost(int simplex, Link& link);
     void finish(int simplex, SlotState state, std::int64_t elapsed);
     void arbitrate(int simplex);
@@ -88,6 +88,11 @@ private:
                     const std::string& remedy);
     static bool endsAtItsRange(const RefSimplex& demand, const Item& derivative, std::size_t i);
     LimitFinding limit(RefSimplex& demand, double elapsed);
+    LimitFinding limitItems(RefSimplex& demand, double elapsed);
+    void findDevices();
+    void lookAtDevices(RefSimplex& demand);
+    static void standStill(RefSimplex& demand, double elapsed);
+    void tellSteps(RefSimplex& demand, LimitFinding& finding);
     void limitOutputs(int simplex, double elapsed);
     void checkValues(int writer, RefSimplex& checked, Record& values);
 

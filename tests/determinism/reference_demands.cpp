@@ -255,8 +255,17 @@ bool Reference::endsAtItsRange(const RefSimplex& demand, const Item& derivative,
            place >= numberOf(item.type->max, place + 1);
 }
 
-// Limits the live values of a demand against what it was when it was last sent.
 LimitFinding Reference::limit(RefSimplex& demand, double elapsed) {
+    lookAtDevices(demand);
+    LimitFinding finding = limitItems(demand, elapsed);
+    if (finding.notFinite) return finding;
+    if (!demand.taken) standStill(demand, elapsed);
+    tellSteps(demand, finding);
+    return finding;
+}
+
+// Limits the live values of a demand against what it was when it was last sent.
+LimitFinding Reference::limitItems(RefSimplex& demand, double elapsed) {
     LimitFinding finding;
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const auto report = [&](std::size_t n, bool& first, double written, double became,

@@ -184,6 +184,9 @@ struct RefSimplex {
     Record previous;
     std::vector<bool> inEpisode;
     std::vector<double> quiet;  // s of the episode in which nothing was limited
+    std::vector<int> devices;   // that read it
+    Record whenLost;            // as it was when the last of them went
+    bool taken = true, wasTaken = false, stood = true;
     // With several writers.
     std::vector<Link*> candidates;
     std::size_t selected = 0;

@@ -20,7 +20,8 @@ void Reference::fault(int simplex, std::int64_t code, std::string_view text) {
 void Reference::runTask(int simplex) {
     RefTask& task = *at(simplex).task;
     if ((cycle_ - 1) % task.every != task.phase && !halted_) return;
-    const Tick tick{cycle_, now_, now_ - task.lastRun, 0};
+    const std::int64_t passed = now_ - task.lastRun;
+    const Tick tick{cycle_, now_, passed, std::min(passed, 3 * period * task.every), 0};
     task.lastRun = task.now = now_;
     task.qualitySet = false;
     SlotState state{cycle_, now_, noSimplex, Quality::Good};
@@ -32,7 +33,7 @@ void Reference::runTask(int simplex) {
             if (!resting(task.state) || !at(output->target).demand) continue;
             tellInVain(simplex, *output, "a handler", "; atRest=\"writer\" frees it");
         }
-        state = readInputs(simplex, tick.elapsed);
+        state = readInputs(simplex, tick.passed);
         if (!task.faultPending) runHooks(simplex, tick);
     } catch (const std::exception& error) {
         fault(simplex, -1, error.what());
@@ -59,6 +60,7 @@ void Reference::runHooks(int simplex, const Tick& tick) {
     behaviour.loopEnd(task.world, tick);
     const double timeout = at(simplex).type->transitionTimeout;
     const bool passing = state == State::StartingUp || state == State::ShuttingDown;
+    if (passing && task.stateSince < now_) task.stateSince += tick.passed - tick.elapsed;
     if (passing && !task.done && now_ - task.stateSince >= std::llround(timeout * 1e9)) {
         const std::string hook =
             state == State::StartingUp ? "stateStartingUp" : "stateShuttingDown";
@@ -186,7 +188,7 @@ void Reference::enterFault(int simplex) {
 }
 
 // The worst quality with its first cause, the oldest stamp; what a lost input leads to.
-SlotState Reference::readInputs(int simplex, std::int64_t elapsed) {
+SlotState Reference::readInputs(int simplex, std::int64_t passed) {
     RefTask& task = *at(simplex).task;
     SlotState sum{cycle_, now_, noSimplex, Quality::Good};
     bool safe = false;
@@ -203,7 +205,7 @@ SlotState Reference::readInputs(int simplex, std::int64_t elapsed) {
         const auto measures = [this](int each) { return at(each).type->measures; };
         const bool outside =
             measures(link->target) || std::ranges::any_of(target.writers, measures);
-        const bool unseen = outside && stoodUntil_ > now_ - elapsed && stood_ > link->maxAge;
+        const bool unseen = outside && stoodUntil_ > now_ - passed && stood_ > link->maxAge;
         const bool tooOld = (ages && now_ - source.time > link->maxAge) || unseen;
         const bool lost = tooOld || source.quality >= Quality::Bad;
         const bool faults =

@@ -4,12 +4,16 @@
 #include "cortex/core/error.hpp"
 #include "cortex/cs/testing.hpp"
 #include "cortex/toolkit/classes.hpp"
+#include "cortex/toolkit/fieldbus_link.hpp"
 
 #include "modbus/test_servers.hpp"
 #include "modbus_io_device.hpp"
 #include "support/waiting.hpp"
 
+#include <cmath>
+#include <cstdint>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -147,6 +151,42 @@ TEST_F(ModbusIoOfSingles, GivesWhatAControllerWritesInEachOfItsStates) {
     expectOutputs(plant, "0 50 5000");
     EXPECT_TRUE(plant.call("/ramp", "shutdown").done());
     expectOutputs(plant, "0 50 0");
+}
+
+TEST_F(ModbusIoOfSingles, GetsNoStepOfARampThatWouldHaveGoneOnWhileItWasAway) {
+    constexpr int perCycle = 300;  // 3 % in a cycle of 1 s, in units of 0.01 %
+    ChamberPlant plant{server.address()};
+    plant.add("/ramp", "Ramp", {{"result", "/heating"}}, {{"rate", "3"}});
+    plant.start();
+    EXPECT_TRUE(plant.call("/ramp", "startup").done());
+    plant.send("/ramp", "goTo", 90);
+    const auto heater = [&] {
+        return server.look([](modbus_mapping_t& map) { return int{map.tab_registers[41]}; });
+    };
+    stepUntil(plant, "a heater that is on", [&] { return heater() > 2 * perCycle; });
+    const auto open = static_cast<std::int64_t>(toolkit::Link::Open);
+    const auto isOpen = [&] { return plant.get<std::int64_t>("/coupler", "link") == open; };
+    server.leave();
+    cortex::test::waitUntil("a link that is closed", [&] {
+        if (!isOpen()) return true;
+        std::this_thread::sleep_for(1ms);
+        plant.step();
+        return false;
+    });
+    plant.step(2);
+    const double stood = plant.get<double>("/heating", "value");
+    plant.step(20);
+    EXPECT_EQ(plant.get<double>("/heating", "value"), stood) << "20 cycles would be 60 %";
+
+    server.comeBack();
+    server.waitForRequests(8);  // its thread connects without a cycle
+    int before = heater();
+    EXPECT_EQ(before, std::lround(stood * 100));
+    stepUntil(plant, "the target", [&] {
+        EXPECT_LE(heater() - before, 2 * perCycle) << "it may see two cycles at once";
+        before = heater();
+        return before == 9000;
+    });
 }
 
 std::string chamberRefusal(const std::string& type, const Texts& relates, const Texts& settings) {

@@ -3,6 +3,7 @@
 
 #include "cortex/core/agent.hpp"
 #include "cortex/cs/simplex_cs.hpp"
+#include "cortex/toolkit/fieldbus_link.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,6 +29,7 @@ private:
         position_ = opening_;  // where the demand begins
         object_ = output("status").data<std::int64_t>("object");
         on<&Fingers::reconnect>("reconnect");
+        data<std::int64_t>("link") = static_cast<std::int64_t>(Link::Open);
     }
     Outcome reconnect(Call&) { return Outcome::Done; }
     void loopEnd(const Tick& tick) override {

@@ -218,6 +218,11 @@ CommandSender RelatedSimplex::sender(std::string_view command, std::uint32_t cap
     return owner_->runtime().makeSender(edge_, command, capacity);
 }
 
+const bool& RelatedSimplex::isTaken() const {
+    AgentRuntime& runtime = owner_->runtime();
+    return runtime.tables().taken(runtime.structure().edges[edge_].target);
+}
+
 bool OutputSimplex::hasValue(std::string_view item) const {
     return !isRemote() && simplex().hasValue(item);
 }

@@ -289,6 +289,10 @@ Slice Tables::acceptedCopy(std::uint32_t simplex) const {
     return found == accepted_.end() ? Slice{} : found->second;
 }
 
+bool& Tables::taken(std::uint32_t simplex) {
+    return taken_.try_emplace(simplex, true).first->second;
+}
+
 void Tables::acceptLive() {
     for (const auto& [simplex, copy] : accepted_) {
         copySlice(structure_->simplexes[simplex].layout->cyclic, live(simplex), copy);

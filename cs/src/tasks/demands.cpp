@@ -114,7 +114,7 @@ DemandLimits::DemandLimits(const TypeLayout& layout, const Slice& live, const Sl
         std::byte* previous = elsewhere ? cellOf(accepted, entry) : next;
         items_.push_back({&item, cellOf(live, entry), previous, sizeOf(item), limited, false, plain,
                           closed, leastOf(item), greatestOf(item), item.rate.value_or(infinity),
-                          nullptr});
+                          nullptr, item.kind == Kind::Float && item.rate.has_value()});
         if (!elsewhere) next += alignedSize(item);
     }
     for (Item& item : items_) {
@@ -125,6 +125,30 @@ DemandLimits::DemandLimits(const TypeLayout& layout, const Slice& live, const Sl
     }
     beginnings_.reserve(items_.size() + 1);  // an array may begin two: a limit, then not finite
     accept();
+}
+
+void DemandLimits::setTakers(std::vector<DemandTaker> takers, bool& taken) {
+    takers_ = std::move(takers);
+    taken_ = &taken;
+    taken = false;
+    stood_ = true;
+    const auto hasRate = [this](std::string_view name) {
+        return std::ranges::any_of(
+            items_, [&](const Item& each) { return each.item->name == name && each.hasRate; });
+    };
+    std::size_t size = 0;
+    for (Item& item : items_) {
+        item.derives = item.item->kind == Kind::Float && hasRate(item.item->derivativeOf);
+        size += alignedSize(*item.item);
+    }
+    takenMemory_.resize(size);
+    std::byte* next = takenMemory_.data();
+    for (Item& item : items_) {
+        if (item.item->kind != Kind::Float || item.hasRate || item.derives) continue;
+        item.taken = next;
+        next += alignedSize(*item.item);
+    }
+    beginnings_.reserve((2 * items_.size()) + 1);  // and a step of each
 }
 
 const std::byte* DemandLimits::previous(const DataItem& item) const {
@@ -145,6 +169,7 @@ void DemandLimits::restore() {
 LimitResult DemandLimits::apply(double elapsedSeconds) {
     LimitResult result;
     beginnings_.clear();
+    if (taken_ != nullptr) *taken_ = std::ranges::any_of(takers_, &DemandTaker::isConnected);
     for (Item& item : items_) {
         if (!item.limited) continue;
         if (item.plain) {
@@ -160,7 +185,39 @@ LimitResult DemandLimits::apply(double elapsedSeconds) {
         if (result.notFinite) return result;
         if (limitedNow || item.inEpisode) follow(item, limitedNow, elapsedSeconds);
     }
+    if (stands()) stand(elapsedSeconds);
+    if (stands() != stood_) devicesChanged();
     return result;
+}
+
+// A number without a rate is now at once where its writer went meanwhile.
+void DemandLimits::devicesChanged() {
+    stood_ = stands();
+    for (const Item& item : items_) {
+        if (item.taken == nullptr) continue;
+        const auto* now = reinterpret_cast<const double*>(item.live);
+        const auto* end = now + item.item->length;
+        const auto [is, was] = std::mismatch(now, end, reinterpret_cast<double*>(item.taken));
+        if (stood_)
+            std::memcpy(item.taken, item.live, item.size);
+        else if (wasTaken_ && is != end)
+            beginnings_.push_back({item.item, *was, *is, false, false, false, true});
+    }
+    wasTaken_ = wasTaken_ || !stood_;
+}
+
+void DemandLimits::stand(double elapsed) {
+    for (const Item& item : items_) {
+        if (!item.hasRate && !item.derives) continue;
+        auto* values = reinterpret_cast<double*>(item.live);
+        const auto* previous = reinterpret_cast<const double*>(item.previous);
+        const double step = item.rate * elapsed;  // infinite: at rest at once
+        for (std::uint32_t i = 0; i < item.item->length; ++i) {
+            const bool rests = item.derives && !(std::abs(previous[i]) > step);
+            const double change = item.derives ? std::copysign(step, previous[i]) : 0;
+            values[i] = rests ? 0 : previous[i] - change;
+        }
+    }
 }
 
 void DemandLimits::follow(Item& item, bool limitedNow, double elapsed) {
@@ -173,7 +230,7 @@ void DemandLimits::found(const Item& item, bool first, double value, double limi
                          LimitResult& result) {
     result.any = result.limited = true;
     if (!first || item.inEpisode) return;
-    beginnings_.push_back({item.item, value, limit, false, byRate, item.closed});
+    beginnings_.push_back({item.item, value, limit, false, byRate, item.closed, false});
 }
 
 // What a derivative of an item at the end of its range may be at once: 0, as it goes no further.
@@ -195,7 +252,7 @@ bool DemandLimits::applyFloat(Item& item, double elapsed, LimitResult& result) {
         if (!rated && written >= item.min && written <= item.max) continue;
         if (!std::isfinite(written)) {
             result = {true, true, item.item, result.limited};
-            beginnings_.push_back({item.item, written, previous[i], true, false, false});
+            beginnings_.push_back({item.item, written, previous[i], true, false, false, false});
             return true;
         }
         const double inRange = std::clamp(written, item.min, item.max);

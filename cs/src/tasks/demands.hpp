@@ -23,8 +23,22 @@ struct LimitResult {
     bool limited = false;                // an item was out of range or too fast
 };
 
+// A device of this agent that reads a demand; its link as the cycle before left it.
+struct DemandTaker {
+    std::uint32_t simplex;
+    const SlotState* state;
+    const std::int64_t* link;  // null: its type says nothing of one
+    std::int64_t open;         // the number of `link` when it is Open
+
+    bool isConnected() const {
+        return state->quality != Quality::Lost && (link == nullptr || *link == open);
+    }
+};
+
 // The last step before a modification is read or sent: not finite, out of range, too fast.
 // One per modification that has a writer; used by the task that ran last among its writers.
+// While no device that reads it is connected, what has a rate stands, and a derivative of that
+// comes to rest by its own rate: it goes on from there.
 class DemandLimits {
 public:
     // The first cycle of an episode of one item. It ends after a second without a limit, so that
@@ -35,6 +49,7 @@ public:
         bool notFinite;
         bool byRate;   // in range, but too far from the value before
         bool noLabel;  // of a closed enumeration: it became the value before
+        bool unseen;   // it became so, from `value` to `limit`, while no device took it
     };
 
     // `accepted`: where the values last accepted are kept for a writer that reads them; its state
@@ -42,7 +57,14 @@ public:
     DemandLimits(const TypeLayout& layout, const Slice& live, const Slice& accepted,
                  std::uint32_t simplex);
 
+    // Setup. Devices that read it by a relationship that is not delayed; `taken`: what writers see
+    // of them.
+    void setTakers(std::vector<DemandTaker> takers, bool& taken);
+
     std::uint32_t simplex() const { return simplex_; }
+    // By the last apply(): whether it stands, as none of the devices that read it is connected.
+    bool stands() const { return taken_ != nullptr && !*taken_; }
+    std::uint32_t taker() const { return takers_.front().simplex; }  // the first of them
     // Limits the live values against those last accepted. May be called again with other values
     // before accept(): a demand still moves no further than once.
     LimitResult apply(double elapsedSeconds) CORTEX_REALTIME;
@@ -63,19 +85,26 @@ private:
         bool closed;  // a closed enumeration: its labels are its range
         double min, max, rate;
         const Item* base;  // of one that is safe="stop": the item whose derivative it is
-        double quiet = 0;  // seconds of the episode in which nothing was limited
+        bool hasRate = false, derives = false;  // derives: of an item with a rate
+        double quiet = 0;            // seconds of the episode in which nothing was limited
+        std::byte* taken = nullptr;  // a number without a rate, as the last device left it
     };
     static void follow(Item& item, bool limitedNow, double elapsed) CORTEX_REALTIME;
     static bool standsAtItsEnd(const Item& item, std::uint32_t element) CORTEX_REALTIME;
     bool applyFloat(Item& item, double elapsed, LimitResult& result) CORTEX_REALTIME;
     bool applyInt(Item& item, LimitResult& result) CORTEX_REALTIME;
+    void devicesChanged() CORTEX_REALTIME;
+    void stand(double elapsed) CORTEX_REALTIME;
     void found(const Item& item, bool first, double value, double limit, bool byRate,
                LimitResult& result) CORTEX_REALTIME;
 
     std::uint32_t simplex_;
     std::vector<Item> items_;
-    std::vector<std::byte> memory_;
+    std::vector<std::byte> memory_, takenMemory_;
     std::vector<Beginning> beginnings_;
+    std::vector<DemandTaker> takers_;
+    bool* taken_ = nullptr;                  // null: no device reads it
+    bool stood_ = false, wasTaken_ = false;  // wasTaken_: since the start
 };
 
 // The safe values that one writer gives one modification. In Standby, in Fault and while an input

@@ -13,10 +13,11 @@ namespace {
 template <class See>
 void eachThatGoesOut(const TaskSet& set, See see) {
     for (const TaskOutput& output : set.outputs) {
-        if (output.limits != nullptr) see(output);
+        if (output.limits != nullptr) see(output, *output.limits);
     }
     for (const auto& arbiter : set.arbiters) {
-        if (arbiter->limits != nullptr) see(*arbiter->candidates[arbiter->selected].output);
+        if (arbiter->limits == nullptr) continue;
+        see(*arbiter->candidates[arbiter->selected].output, *arbiter->limits);
     }
 }
 
@@ -29,7 +30,7 @@ bool TaskDemands::limit(Task& task, const Tick& tick) {
     for (TaskOutput& output : set_.outputsOf(task)) {
         if (output.limits == nullptr) continue;
         const LimitResult result = output.limits->apply(elapsed);
-        if (!result.any) continue;
+        if (!result.any && output.limits->beginnings().empty()) continue;
         if (result.notFinite) {
             output.safe->write();
             again = true;
@@ -94,16 +95,17 @@ void TaskDemands::accept(Task& task, const Tick& tick, bool again) {
 
 bool TaskDemands::anyOnTheWay() const {
     bool any = false;
-    eachThatGoesOut(set_, [&any](const TaskOutput& output) {
-        any = any || output.safe->onTheWay().has_value();
+    eachThatGoesOut(set_, [&any](const TaskOutput& output, const DemandLimits& limits) {
+        any = any || (!limits.stands() && output.safe->onTheWay().has_value());
     });
     return any;
 }
 
 std::vector<TaskDemands::OnTheWay> TaskDemands::onTheWay() const {
     std::vector<OnTheWay> all;
-    eachThatGoesOut(set_, [&all](const TaskOutput& output) {
-        if (const auto way = output.safe->onTheWay()) all.push_back({output.target, *way});
+    eachThatGoesOut(set_, [&all](const TaskOutput& output, const DemandLimits& limits) {
+        const auto way = output.safe->onTheWay();
+        if (way) all.push_back({output.target, *way, limits.stands() ? limits.taker() : noSimplex});
     });
     std::ranges::sort(all, {}, &OnTheWay::simplex);
     return all;
@@ -130,7 +132,14 @@ void TaskDemands::reportLimits(const DemandLimits& limits, std::uint32_t simplex
     for (const DemandLimits::Beginning& each : limits.beginnings()) {
         EventText text{each.item->name};
         text << " of " << set_.structure.simplexes[limits.simplex()].path;
-        if (each.notFinite) {
+        if (each.unseen) {
+            text << " went from ";
+            text.apart(each.value, each.limit) << " to ";
+            text.apart(each.limit, each.value);
+            if (!each.item->unit.empty()) text << " " << each.item->unit;
+            text << " while " << set_.structure.simplexes[limits.taker()].path
+                 << " was not connected";
+        } else if (each.notFinite) {
             text << " was not a number";
         } else if (each.noLabel) {
             text << " was " << each.value << ", none of its labels; " << each.limit << " stays";

@@ -53,6 +53,7 @@ public:
     struct OnTheWay {
         std::uint32_t simplex;
         SafeDemands::Way way;
+        std::uint32_t unconnected;  // the device that would take it; noSimplex: it is taken
     };
     std::vector<OnTheWay> onTheWay() const;
 

@@ -50,6 +50,34 @@ struct TaskBuilder {
 
     bool measures(std::uint32_t simplex) const { return layout(simplex).type->measures; }
 
+    // What a device says of its link, if its type has such an item (ontology/devices.xml).
+    DemandTaker takerOf(std::uint32_t device) const {
+        DemandTaker taker{device, &set.states[device], nullptr, 0};
+        const ItemLayout* link = layout(device).find("link");
+        if (link == nullptr || link->item->kind != Kind::Int) return taker;
+        for (const auto& [number, label] : link->item->labels) {
+            if (label != "Open") continue;
+            taker.link = static_cast<const std::int64_t*>(
+                agent.tables().live(device).at(Kind::Int, link->offset));
+            taker.open = number;
+        }
+        return taker;
+    }
+    // The devices of this agent that read a demand in the cycle that writes it.
+    void addTakers() {
+        std::vector<std::vector<DemandTaker>> takers(structure.simplexes.size());
+        for (const Edge& edge : structure.edges) {
+            const bool takes = edge.rule->direction == Direction::Input && !edge.delayed &&
+                               limitsOf[edge.target] != nullptr && isActive(edge.owner) &&
+                               layout(edge.owner).type->isA("Device");
+            if (takes) takers[edge.target].push_back(takerOf(edge.owner));
+        }
+        for (std::uint32_t i = 0; i < takers.size(); ++i) {
+            if (!takers[i].empty())
+                limitsOf[i]->setTakers(std::move(takers[i]), agent.tables().taken(i));
+        }
+    }
+
     void build(const Schedule& schedule) {
         limitsOf.assign(structure.simplexes.size(), nullptr);
         candidates.resize(structure.simplexes.size());
@@ -70,6 +98,7 @@ struct TaskBuilder {
                                                                 agent.tables().acceptedCopy(i), i));
             limitsOf[i] = set.limits.back().get();
         }
+        addTakers();
         set.tasks.resize(schedule.tasks.size());
         set.details.resize(schedule.tasks.size());
         set.runsOf.resize(schedule.tasks.size());

@@ -30,7 +30,7 @@ void Ramp::stateActive(const Tick& tick) {
     const double before = result_.before();
     if (begins_) target_ = before;
     begins_ = false;
-    const double step = rate_ * tick.elapsedSeconds();
+    const double step = result_.step(rate_, tick.elapsedSeconds());
     const double now = std::clamp<double>(target_, before - step, before + step);
     remaining_ = rate_ > 0 ? std::abs(target_ - now) / rate_ : 0.0;
     result_.write(now);

@@ -14,7 +14,7 @@ void RateLimiter::populate() {
 }
 
 void RateLimiter::stateActive(const Tick& tick) {
-    const double step = rate_ * tick.elapsedSeconds();
+    const double step = result_.step(rate_, tick.elapsedSeconds());
     const double before = result_.before();
     const double result = std::clamp<double>(source_, before - step, before + step);
     limiting_ = result != source_;

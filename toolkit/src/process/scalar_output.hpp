@@ -21,14 +21,20 @@ public:
     ScalarOutput(const OutputSimplex& output, std::string_view item)
         : value_{output.data<double>(item)},
           before_{output.type().role == Role::Observation ? output.data<const double>(item)
-                                                          : output.accepted<double>(item)} {}
+                                                          : output.accepted<double>(item)},
+          taken_{output.taken()} {}
 
     double before() const CORTEX_REALTIME { return before_; }
+    // How far it may move in this time: no way while no device takes it.
+    double step(double rate, double seconds) const CORTEX_REALTIME {
+        return taken_ ? rate * seconds : 0;
+    }
     void write(double value) CORTEX_REALTIME { value_ = value; }
 
 private:
     Data<double> value_;
     Data<const double> before_;
+    Data<const bool> taken_;
 };
 
 }  // namespace cortex::toolkit

@@ -61,6 +61,7 @@ protected:
     void* cell(std::string_view item, const ItemAccess& access, std::size_t& length) const;
     const Value& safe(std::string_view item, const ItemAccess& access) const;
     CommandSender sender(std::string_view command, std::uint32_t capacity) const;
+    const bool& isTaken() const;
 
     Simplex* owner_;
     std::uint32_t edge_;
@@ -135,6 +136,9 @@ public:
         void* first = cell(item, {kindFor<T>(), true, false, unit, true}, length);
         return {static_cast<typename StorageOf<const T>::type*>(first), length};
     }
+    // Of a demand, in hooks, by the cycle before: false while each device of this agent that reads
+    // it is away. Then a writer with a rate of its own stands, as one of the type does by itself.
+    Data<const bool> taken() const { return Data<const bool>{&isTaken()}; }
     // Whether a start value was given for the item; see Simplex::hasValue().
     bool hasValue(std::string_view item) const;
     CommandSender command(std::string_view name, std::uint32_t capacity = 16) const {

@@ -50,6 +50,8 @@ public:
     Slice accepted(std::uint32_t simplex);
     // That copy; its state is null where nobody asked for one.
     Slice acceptedCopy(std::uint32_t simplex) const;
+    // Whether a demand is taken by a device of this agent, as the loop says. Setup.
+    bool& taken(std::uint32_t simplex);
     // The live demands count as those that went out last. Between cycles, after live ones were set.
     void acceptLive();
 
@@ -102,6 +104,7 @@ private:
     std::vector<Latch> latches_;  // by the address of the copy's state
     bool gaveUp_ = false;
     std::map<std::uint32_t, Slice> accepted_;  // by simplex
+    std::map<std::uint32_t, bool> taken_;      // the same
     // An index into views_; noSimplex: the live slice; givenUp: nobody asked for it in time.
     static constexpr std::uint32_t givenUp = noSimplex - 1;
     std::vector<std::uint32_t> viewOfEdge_;
