@@ -149,7 +149,8 @@ TEST(UnconnectedDevices, LetAVelocityComeToRestByItsOwnRate) {
                   TakenDemand::braking * TakenDemand::period + TakenDemand::rounding);
         before = plant.get("velocity");
     }
-    EXPECT_NEAR(cycles, 10, 1) << TakenDemand::rate << " rad/s at " << TakenDemand::braking << " rad/s2";
+    EXPECT_NEAR(cycles, 10, 1) << TakenDemand::rate << " rad/s at " << TakenDemand::braking
+                               << " rad/s2";
 }
 
 TEST(UnconnectedDevices, LetADemandGoOnAsLongAsOneOfThemIsConnected) {
