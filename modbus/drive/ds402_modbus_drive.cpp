@@ -10,8 +10,6 @@
 namespace cortex::modbus {
 namespace {
 
-constexpr std::uint16_t quickStop = 0x0002;
-
 std::uint16_t watchdogOf(Simplex& device) {
     const double time = device.data<const double>("watchdogTime") * 1000;
     if (time != 0 && time < Ds402Map::shortestWatchdog)
@@ -52,7 +50,7 @@ void Ds402ModbusDrive::populate() {
                          toolkit::Ds402ObservationItems{observation}, observation.path()});
         settings.axes.push_back({observation.path(), parameters});
         last_.axes[i].parameters = parameters;
-        last_.axes[i].inputs.controlWord = quickStop;
+        last_.axes[i].inputs.controlWord = toolkit::ds402QuickStop;
     }
     master_.populate(std::move(settings));
 }
@@ -88,9 +86,14 @@ void Ds402ModbusDrive::pack(Ds402Demand& demand) {
     demand = last_;
 }
 
+// It comes before pack(), and in each cycle.
 void Ds402ModbusDrive::quiet(Ds402Demand& demand) {
+    const double seconds = std::chrono::duration<double>(period()).count();
+    for (Axis& axis : axes_)
+        axis.demand.see(inputLost(), axis.observation.position(), axis.mode, seconds);
     demand = last_;
-    for (Ds402Demand::Axis& axis : demand.axes) axis.inputs.controlWord = quickStop;
+    for (Ds402Demand::Axis& axis : demand.axes)
+        axis.inputs.controlWord = toolkit::ds402QuickStop;
 }
 
 void Ds402ModbusDrive::unpack(const Ds402Answer& answer) {
@@ -130,7 +133,7 @@ void Ds402ModbusDrive::tell(Axis& axis, const Ds402AxisSeen& seen,
 }
 
 void Ds402ModbusDrive::keep(Archive& archive) {
-    archive.version("Ds402ModbusDrive", 1);
+    archive.version("Ds402ModbusDrive", 2);
     for (Axis& axis : axes_) archive & axis;
     for (Ds402Demand::Axis& axis : last_.axes) archive & axis.inputs & axis.parameters;
     archive & time_;

@@ -34,7 +34,7 @@ private:
         bool isBeyond = false, isUnknown = false;
 
         void keep(Archive& archive) CORTEX_REALTIME {
-            archive & velocity & mode & refused & isBeyond & isUnknown;
+            archive & demand & velocity & mode & refused & isBeyond & isUnknown;
         }
     };
 

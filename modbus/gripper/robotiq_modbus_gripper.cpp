@@ -162,6 +162,10 @@ bool RobotiqModbusGripper::failsBy(const RobotiqStatus& status) {
     return true;
 }
 
+// It keeps what it holds. It comes before pack(): a demand that was lost, or began anew, may be
+// anywhere when it is back.
+void RobotiqModbusGripper::quiet(RobotiqDemand&) { hasJoined_ = hasJoined_ && !inputLost(); }
+
 void RobotiqModbusGripper::pack(RobotiqDemand& demand) {
     isWished_ = false;
     const bool isActive = state() == State::Active;

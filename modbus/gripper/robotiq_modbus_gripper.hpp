@@ -45,7 +45,7 @@ private:
     bool stateStartingUp(const Tick&) CORTEX_REALTIME override;
     void stateActive(const Tick&) CORTEX_REALTIME override;
     void pack(RobotiqDemand& demand) CORTEX_REALTIME override;
-    void quiet(RobotiqDemand&) CORTEX_REALTIME override {}  // it keeps what it holds
+    void quiet(RobotiqDemand&) CORTEX_REALTIME override;
     void unpack(const RobotiqAnswer& answer) CORTEX_REALTIME override;
     void keep(Archive& archive) CORTEX_REALTIME override;
 

@@ -6,6 +6,7 @@
 
 #include <span>
 #include <string>
+#include <utility>
 
 namespace cortex::modbus {
 namespace {
@@ -113,7 +114,8 @@ void ModbusIoDevice::populateInputNumbers() {
                                  inputRegisters_.words());
 }
 
-// It reads before it writes: a device with other addresses refuses before anything moves.
+// It reads before it writes: a device with other addresses refuses before anything moves. Where it
+// has connected anew, the demand knows nothing of its inputs yet, so the first exchange only reads.
 void ModbusIoDevice::talk(ModbusClient& client, const IoDemand& demand, IoAnswer& answer) {
     if (!inputSignals_.empty()) {
         client.readDiscreteInputs(discreteInputsAt_,
@@ -126,6 +128,8 @@ void ModbusIoDevice::talk(ModbusClient& client, const IoDemand& demand, IoAnswer
         else
             client.readInputRegisters(inputRegisters_.at, words);
     }
+    const bool hasInputs = !inputSignals_.empty() || !inputNumbers_.empty();
+    if (!std::exchange(hasRead_, true) && hasInputs && !isEnding()) return;
     if (!outputSignals_.empty())
         client.writeCoils(coilsAt_, std::span{demand.bits}.first(outputSignals_.size()));
     if (!outputNumbers_.empty()) {

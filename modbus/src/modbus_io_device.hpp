@@ -38,6 +38,7 @@ private:
     int startOf(std::string_view item, const IoRules& rules, std::size_t size);
     bool hasWriter(const InputSimplex& output) const;
 
+    void identify(ModbusClient&) override { hasRead_ = false; }
     void talk(ModbusClient& client, const IoDemand& demand, IoAnswer& answer) override;
     void pack(IoDemand& demand) CORTEX_REALTIME override;
     void quiet(IoDemand& demand) CORTEX_REALTIME override { demand = safe_; }
@@ -57,6 +58,7 @@ private:
     int coilsAt_ = -1, discreteInputsAt_ = -1;
     ScaledRegisters outputRegisters_, inputRegisters_;
     bool areInputsHolding_ = false;  // the inputs stand in holding registers
+    bool hasRead_ = false;           // the thread's: since it has connected
     IoDemand safe_{};
     std::array<bool, mostPlaces> beyond_{};  // told that the register cannot hold it
 };

@@ -298,6 +298,26 @@ TEST(DataFlow, ATaskThatSkippedTheFirstCycleAfterAStandstillSeesTheLossAtItsNext
     EXPECT_NE(seen.back(), "lost");
 }
 
+// Whoever wrote it knows nothing of what was before, or was not followed meanwhile.
+TEST(DataFlow, WhatWasLinkedAnewSinceTheLastRunIsLostOnceHoweverFreshItIs) {
+    for (const int every : {1, 4}) {
+        Followed plant;
+        if (every > 1) plant.follower.runEvery(every, 3);
+        plant.start();
+        for (int i = 0; i < 12; ++i) plant.step();
+        plant.seen.clear();
+        plant.hub.setConnected("hand", false);
+        plant.step();
+        plant.hub.setConnected("hand", true);
+        for (int i = 0; i < 12; ++i) plant.step();
+
+        EXPECT_EQ(std::ranges::count(plant.seen, "lost"), 1) << every;
+        EXPECT_EQ(plant.seen.back(), "there") << every;
+        EXPECT_EQ(plant.arm.hasEvent("input in from /s was linked anew; reaction: propagate"),
+                  every > 1);
+    }
+}
+
 // A writer's value of this very cycle is as good as ever: nothing has moved on without us.
 TEST(DataFlow, WhatTheClusterComputesItselfIsNotLostByAStandstill) {
     Chain chain;

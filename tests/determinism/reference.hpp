@@ -68,6 +68,8 @@ private:
     void enter(int simplex, State to);
     void enterFault(int simplex);
     void fault(int simplex, std::int64_t code, std::string_view text);
+    void noteSilence(int simplex);
+    std::int64_t ageOf(const SlotState& source, const RefTask& reader) const;
     SlotState readInputs(int simplex, std::int64_t passed);
     void inputLost(int simplex, Link& link);
     void finish(int simplex, SlotState state, std::int64_t elapsed);

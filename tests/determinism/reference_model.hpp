@@ -161,6 +161,7 @@ struct RefTask {
     bool toldInVain = false;  // in this stay
     Quality quality = Quality::Good;
     std::int64_t measuredAt = 0, faultCode = 0;
+    std::int64_t silentSince = -1, silentFor = 0;  // ns
     std::string text;
     bool pending[4]{}, pendingLater[4]{};  // by LifeCycle
     int manager = -1;

@@ -187,11 +187,27 @@ void Reference::enterFault(int simplex) {
          "fault " + std::to_string(task.faultCode) + ": " + task.text);
 }
 
+// A device that has measured nothing new for longer than two of its runs.
+void Reference::noteSilence(int simplex) {
+    RefTask& task = *at(simplex).task;
+    const std::int64_t measured = at(simplex).live.state.time;
+    const std::int64_t length = now_ - measured - 2 * period * task.every;
+    if (!at(simplex).type->measures || length <= 0) return;
+    task.silentSince = measured + period;
+    task.silentFor = length;
+}
+
+// What followed from its measurements before that is as much younger.
+std::int64_t Reference::ageOf(const SlotState& source, const RefTask& reader) const {
+    return now_ - source.time - (source.time <= reader.silentSince ? reader.silentFor : 0);
+}
+
 // The worst quality with its first cause, the oldest stamp; what a lost input leads to.
 SlotState Reference::readInputs(int simplex, std::int64_t passed) {
     RefTask& task = *at(simplex).task;
     SlotState sum{cycle_, now_, noSimplex, Quality::Good};
     bool safe = false;
+    noteSilence(simplex);
     for (Link* link : task.inputs) {
         const RefSimplex& target = at(link->target);
         const bool ages = target.task != nullptr || !target.writers.empty();
@@ -206,7 +222,7 @@ SlotState Reference::readInputs(int simplex, std::int64_t passed) {
         const bool outside =
             measures(link->target) || std::ranges::any_of(target.writers, measures);
         const bool unseen = outside && stoodUntil_ > now_ - passed && stood_ > link->maxAge;
-        const bool tooOld = (ages && now_ - source.time > link->maxAge) || unseen;
+        const bool tooOld = (ages && ageOf(source, task) > link->maxAge) || unseen;
         const bool lost = tooOld || source.quality >= Quality::Bad;
         const bool faults =
             lost && link->rule->onLoss == OnLoss::Fault && task.state == State::Active;
@@ -252,8 +268,9 @@ void Reference::inputLost(int simplex, Link& link) {
         text += std::string{" is "} + name(source.quality);
         if (source.cause != noSimplex) text += ", first cause " + all_[source.cause].path;
     } else {
-        const bool old = now_ - source.time > link.maxAge;
-        const auto time = static_cast<double>(old ? now_ - source.time : stood_);
+        const std::int64_t age = ageOf(source, *at(simplex).task);
+        const bool old = age > link.maxAge;
+        const auto time = static_cast<double>(old ? age : stood_);
         const std::string number = inText(std::ceil(time / 1e5) / 10) + " ms";
         text += old ? " is " + number + " old"
                     : " was not followed for " + number + ", as the loop stood still";

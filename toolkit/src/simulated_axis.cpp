@@ -3,6 +3,7 @@
 
 #include "cortex/core/error.hpp"
 #include "cortex/core/value.hpp"
+#include "cortex/drives/ds402_words.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,10 +12,10 @@
 namespace cortex::toolkit {
 namespace {
 
-constexpr double switchOnTolerance = 0.01;  // rad or m between demand and joint
-constexpr double brakeTime = 0.02;          // s, time constant
-constexpr double standstill = 1e-4;         // rad/s or m/s
-constexpr double patience = 1;              // s
+constexpr double brakeTime = 0.02;   // s, time constant
+constexpr double standstill = 1e-4;  // rad/s or m/s
+constexpr double patience = 1;       // s
+constexpr int byPosition = static_cast<int>(drives::Ds402Mode::CyclicPosition);
 
 }  // namespace
 
@@ -43,17 +44,40 @@ double SimulatedAxis::startOf(const OutputSimplex& observation) {
                 observation.path() + " is given as " + toText(given) + ": give one of the two");
 }
 
+AxisTarget SimulatedAxis::demand() const { return {demand_->position, demand_->velocity, 0, 0}; }
+
+void SimulatedAxis::loopStart(const Tick& tick) { targets_.see(demand(), tick.elapsedSeconds()); }
+
 // As drives do: it does not switch on while the demand is elsewhere.
 bool SimulatedAxis::stateStartingUp(const Tick& tick) {
-    const double away = std::abs(demand_->position - position_);
-    if (away < switchOnTolerance && std::abs(velocity_) < standstill) return true;
+    targets_.standAt(position_);
+    return !waitsForDemand(tick.elapsedSeconds());
+}
+
+// Nor does it go on with a demand that was lost, or began anew, and is back elsewhere.
+void SimulatedAxis::chooseTarget(double seconds) {
+    const bool isActive = state() == State::Active;
+    const bool stands = std::abs(velocity_) < standstill;
+    if (!isActive || inputLost() || (!targets_.follows() && !stands)) targets_.standAt(position_);
+    if (!isActive || inputLost()) return;
+    if (!targets_.follows() && waitsForDemand(seconds)) return;
+    targets_.follow(demand(), byPosition, true, position_, seconds);
+}
+
+bool SimulatedAxis::waitsForDemand(double seconds) {
+    const double away = targets_.away(demand(), byPosition);
+    const bool mayJoin = targets_.mayJoin(demand(), byPosition);
+    if (mayJoin && std::abs(velocity_) < standstill) return false;
     const bool tells = waited_ < patience;
-    waited_ += tick.elapsedSeconds();
-    if (tells && waited_ >= patience) {
-        event(Severity::Warning, EventText{"it waits for its demand, which is "}
-                                     << away << " away; the controller brings it here");
-    }
-    return false;
+    waited_ += seconds;
+    if (!tells || waited_ < patience) return true;
+    EventText text{"it waits for its demand, which "};
+    if (away > AxisTargets::tolerance)
+        text << "is " << away << " away; the controller brings it here";
+    else
+        text << "moves; let it rest";
+    event(Severity::Warning, text);
+    return true;
 }
 
 // Distance to a demand that moves on at its velocity: e'' + 2 d w e' + w^2 e = 0, solved exactly
@@ -65,13 +89,14 @@ void SimulatedAxis::servo(double seconds) {
     const double decay = std::exp(-damping * seconds);
     const double cosine = std::cos(turn * seconds);
     const double sine = turn * seconds < 1e-6 ? seconds : std::sin(turn * seconds) / turn;
-    const double error = position_ - demand_->position;
-    const double errorSpeed = velocity_ - demand_->velocity;
+    const AxisTarget& target = targets_.target();
+    const double error = position_ - target.position;
+    const double errorSpeed = velocity_ - target.velocity;
     const double newError = decay * (error * cosine + (errorSpeed + damping * error) * sine);
     const double newSpeed =
         decay * (errorSpeed * cosine - (damping * errorSpeed + w * w * error) * sine);
-    position_ = demand_->position + demand_->velocity * seconds + newError;
-    velocity_ = demand_->velocity + newSpeed;
+    position_ = target.position + target.velocity * seconds + newError;
+    velocity_ = target.velocity + newSpeed;
 }
 
 void SimulatedAxis::brake(double seconds) {
@@ -96,28 +121,31 @@ void SimulatedAxis::limit(double before, double seconds) {
 
 std::int64_t SimulatedAxis::status() const {
     if (state() == State::Fault) return Faulty;
-    if (state() != State::Active) return Braked;
+    if (!obeys()) return Braked;
     if (atLimit_) return AtLimit;
     return std::abs(velocity_) < standstill ? Ready : Moving;
 }
 
+bool SimulatedAxis::obeys() const { return state() == State::Active && targets_.follows(); }
+
 void SimulatedAxis::loopEnd(const Tick& tick) {
     const double before = position_, velocityBefore = velocity_;
     const double seconds = tick.elapsedSeconds();
-    if (state() == State::Active)
+    chooseTarget(seconds);
+    if (obeys())
         servo(seconds);
     else
         brake(seconds);
     limit(before, seconds);
     observation_->write(position_, velocity_, (velocity_ - velocityBefore) / seconds);
     observedStatus_ = status();
-    if (state() != State::StartingUp) waited_ = 0;
+    if (state() != State::StartingUp && (state() != State::Active || obeys())) waited_ = 0;
     followingError_ = demand_->position - position_;
 }
 
 void SimulatedAxis::keep(Archive& archive) {
-    archive.version("SimulatedAxis", 2);
-    archive & position_ & velocity_ & waited_ & atLimit_;
+    archive.version("SimulatedAxis", 3);
+    archive & position_ & velocity_ & waited_ & atLimit_ & targets_;
 }
 
 }  // namespace cortex::toolkit

@@ -3,13 +3,15 @@
 
 #include "cortex/cs/simplex_cs.hpp"
 
+#include "ds402/axis_targets.hpp"
 #include "handles.hpp"
 
 #include <optional>
 
 namespace cortex::toolkit {
 
-// A drive and its joint: second order, with the limits of its axis; braked unless Active.
+// A drive and its joint: second order, with the limits of its axis; braked unless Active, and from
+// when its demand is lost until that rests at the joint.
 class SimulatedAxis final : public cs::SimplexCS {
 public:
     using SimplexCS::SimplexCS;
@@ -18,11 +20,16 @@ private:
     enum Status : std::int64_t { Ready = 1, Moving, AtLimit, Faulty, Braked = 7 };
 
     void populate() override;
+    void loopStart(const Tick& tick) override;
     bool stateStartingUp(const Tick& tick) override;
     void loopEnd(const Tick& tick) override;
     void keep(Archive& archive) override;
 
     double startOf(const OutputSimplex& observation);
+    AxisTarget demand() const;
+    bool waitsForDemand(double seconds);
+    void chooseTarget(double seconds);
+    bool obeys() const;
     void servo(double seconds);
     void brake(double seconds);
     void limit(double before, double seconds);
@@ -36,7 +43,8 @@ private:
     Data<double> followingError_;
     Data<std::int64_t> limitCount_;
     double position_ = 0, velocity_ = 0;
-    double waited_ = 0;  // s, in StartingUp
+    AxisTargets targets_;  // that it acts on
+    double waited_ = 0;    // s, for its demand
     bool atLimit_ = false;
 };
 

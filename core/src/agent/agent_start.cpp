@@ -153,6 +153,7 @@ void AgentRuntime::bindSimplexes() {
     tableOf_.reserve(count);
     while (firstRemote_ < count && !structure_->simplexes[firstRemote_].remote) ++firstRemote_;
     ownerPeriods_.assign(count - firstRemote_, options_.period);
+    linkLosses_.assign(count - firstRemote_, 0);
     everOffered_.assign(count - firstRemote_, false);
     everLinked_.assign(count - firstRemote_, false);
     calls_ = std::make_unique<std::atomic<std::uint8_t>[]>(count);

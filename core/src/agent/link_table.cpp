@@ -77,6 +77,7 @@ void LinkTable::lost(std::uint32_t simplex) {
     Link* link = find(simplex);
     if (link == nullptr || !link->bound) return;
     link->bound = false;
+    ++runtime_.linkLosses_[simplex - first_];
     link->slice.state->quality = Quality::Lost;
     link->slice.state->cause = simplex;
     if (!link->reported) post(Severity::Warning, simplex, "link lost: its agent is not heard");

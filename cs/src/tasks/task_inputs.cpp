@@ -22,10 +22,12 @@ void merge(SlotState& sum, const SlotState& state, bool ages) {
     }
 }
 
-// ns. What comes over a network ages while this cycle was late to wake up, too.
-std::int64_t ageOf(const TaskInput& input, const Tick& tick) {
+// ns. What comes over a network ages while this cycle was late to wake up, too. What followed from
+// the last measurement of a device before it was silent cannot be younger than that.
+std::int64_t ageOf(const TaskInput& input, const Tick& tick, const Silence& silence) {
     const std::int64_t late = input.ownerPeriod != nullptr ? tick.lateness : 0;
-    return tick.nominalTime + late - input.state->time;
+    const std::int64_t silent = input.state->time <= silence.since ? silence.length : 0;
+    return tick.nominalTime + late - input.state->time - silent;
 }
 
 // In tenths, rounded up.
@@ -35,25 +37,25 @@ double milliseconds(std::int64_t time) {
     return static_cast<double>(tenths) / 10;
 }
 
-// What was not followed for so long may have moved anywhere: it is lost for one run of the task,
-// however fresh it looks.
-bool movedOnUnseen(const TaskInput& input, std::int64_t stoodStill) {
-    return stoodStill > input.maxAge && input.fromOutside;
+// What was not followed for so long may have moved anywhere, and another start of its agent knows
+// nothing of what was before: it is lost for one run of the task, however fresh it looks.
+bool movedOnUnseen(TaskInput& input, std::int64_t stoodStill) {
+    const bool isAnew = input.linkLosses != nullptr &&
+                        std::exchange(input.seenLosses, *input.linkLosses) != *input.linkLosses;
+    return isAnew || (stoodStill > input.maxAge && input.fromOutside);
 }
 
 }  // namespace
 
 // The rare case of an input: lost, back, aged, held, or not good.
-SlotState TaskInputs::readUnusual(Task& task, TaskInput& input, const Tick& tick,
-                                  std::int64_t stoodStill) {
-    const bool tooOld =
-        (input.ages && ageOf(input, tick) > input.maxAge) || movedOnUnseen(input, stoodStill);
+SlotState TaskInputs::readUnusual(Task& task, TaskInput& input, Seen now) {
+    const bool tooOld = now.age > input.maxAge || now.isUnseen;
     const bool lost = input.state->quality >= Quality::Bad || tooOld;
     const bool faults =
         lost && input.rule->onLoss == OnLoss::Fault && task.simplex->state_ == State::Active;
     if (lost != input.lost || faults) {
         input.lost = lost;
-        lossChanged(task, input, tick, stoodStill);
+        lossChanged(task, input, now);
     }
     SlotState seen = *input.state;
     if (lost && seen.quality < Quality::Stale) {  // it is too old, which is its own doing
@@ -73,22 +75,33 @@ SlotState TaskInputs::readUnusual(Task& task, TaskInput& input, const Tick& tick
     return *held.to.state;
 }
 
+// A device that answers late or not at all, and one whose loop stood still, has nothing new.
+void TaskInputs::noteSilence(const Task& task, const Tick& tick) {
+    TaskDetails& details = set_.detailsOf(task);
+    const std::int64_t measured = set_.states[task.index].time;
+    const std::int64_t usual = 2 * set_.period * std::int64_t{details.every};
+    const std::int64_t length = tick.nominalTime - measured - usual;
+    if (length > 0) details.silence = {measured + set_.period, length};
+}
+
 SlotState TaskInputs::read(Task& task, const Tick& tick) {
     SlotState sum{tick.cycle, tick.nominalTime, noSimplex, Quality::Good};
     bool anyLost = false, safe = false;
     const bool stood = set_.standstill.nominalTime > tick.nominalTime - tick.passed;
     const std::int64_t stoodStill = stood ? set_.standstill.length : 0;
+    const Silence silence = task.measures ? set_.detailsOf(task).silence : Silence{};
     for (TaskInput& input : set_.inputsOf(task)) {
         if (input.ownerPeriod != nullptr) {
             input.maxAge = std::max(input.maxAge, 3 * *input.ownerPeriod);
         }
-        const bool fresh = !input.ages || ageOf(input, tick) <= input.maxAge;
-        if (fresh && !input.lost && input.held == nullptr &&
-            input.state->quality == Quality::Good && !movedOnUnseen(input, stoodStill)) {
+        const Seen now{input.ages ? ageOf(input, tick, silence) : 0, stoodStill,
+                       movedOnUnseen(input, stoodStill)};
+        if (now.age <= input.maxAge && !now.isUnseen && !input.lost && input.held == nullptr &&
+            input.state->quality == Quality::Good) {
             merge(sum, *input.state, input.ages);
             continue;
         }
-        merge(sum, readUnusual(task, input, tick, stoodStill), input.ages);
+        merge(sum, readUnusual(task, input, now), input.ages);
         anyLost = anyLost || input.lost;
         safe = safe || (input.lost && input.rule->onLoss == OnLoss::Safe);
     }
@@ -106,8 +119,7 @@ SlotState TaskInputs::read(Task& task, const Tick& tick) {
 }
 
 // An input was lost, or is back.
-void TaskInputs::lossChanged(Task& task, TaskInput& input, const Tick& tick,
-                             std::int64_t stoodStill) {
+void TaskInputs::lossChanged(Task& task, TaskInput& input, Seen now) {
     SimplexCS& simplex = *task.simplex;
     EventText text{"input "};
     text << input.rule->name << " from " << set_.structure.simplexes[input.target].path;
@@ -123,14 +135,15 @@ void TaskInputs::lossChanged(Task& task, TaskInput& input, const Tick& tick,
         if (cause < set_.structure.simplexes.size()) {
             text << ", first cause " << set_.structure.simplexes[cause].path;
         }
-    } else {
-        const std::int64_t age = ageOf(input, tick);
-        if (age > input.maxAge)
-            text << " is " << milliseconds(age) << " ms old";
+    } else if (now.age > input.maxAge || now.stoodStill > input.maxAge) {
+        if (now.age > input.maxAge)
+            text << " is " << milliseconds(now.age) << " ms old";
         else
-            text << " was not followed for " << milliseconds(stoodStill)
+            text << " was not followed for " << milliseconds(now.stoodStill)
                  << " ms, as the loop stood still";
         text << ", allowed " << milliseconds(input.maxAge) << " ms";
+    } else {
+        text << " was linked anew";
     }
     const bool faults = input.rule->onLoss == OnLoss::Fault && simplex.state_ == State::Active;
     // What follows from a simplex of another agent that has never been there is no loss.

@@ -11,6 +11,8 @@ class TaskInputs {
 public:
     TaskInputs(TaskSet& set, TaskDemands& demands) : set_{set}, demands_{demands} {}
 
+    // Of a device, before its own stamp is that of this run.
+    void noteSilence(const Task& task, const Tick& tick) CORTEX_REALTIME;
     // Before the hooks: worst quality and oldest stamp of all inputs.
     SlotState read(Task& task, const Tick& tick) CORTEX_REALTIME;
     // After them: what its own state, and what the task set itself, make of the quality of inputs.
@@ -32,11 +34,14 @@ public:
     }
 
 private:
-    // `stoodStill`: how long the loop did before this run of the task, ns.
-    SlotState readUnusual(Task& task, TaskInput& input, const Tick& tick, std::int64_t stoodStill)
-        CORTEX_REALTIME;
-    void lossChanged(Task& task, TaskInput& input, const Tick& tick, std::int64_t stoodStill)
-        CORTEX_REALTIME;
+    // Of an input, in this run of the task; times in ns.
+    struct Seen {
+        std::int64_t age;         // 0: nothing writes it
+        std::int64_t stoodStill;  // the loop, before this run
+        bool isUnseen;            // it may have moved anywhere meanwhile
+    };
+    SlotState readUnusual(Task& task, TaskInput& input, Seen now) CORTEX_REALTIME;
+    void lossChanged(Task& task, TaskInput& input, Seen now) CORTEX_REALTIME;
 
     TaskSet& set_;
     TaskDemands& demands_;

@@ -138,6 +138,7 @@ inline void TaskRunner::runSimplex(Task& task, const Tick& tick, TaskThread& thr
     if (simplex.thread_ != &thread) simplex.thread_ = &thread;
     position.simplex.store(task.index, std::memory_order_relaxed);
     position.setHook(Hook::Commands);
+    if (task.measures) inputs_.noteSilence(task, tick);
     set_.states[task.index] = {tick.cycle, tick.nominalTime, noSimplex, Quality::Good};
     try {
         const std::uint8_t calls = set_.agent.calls(task.index);

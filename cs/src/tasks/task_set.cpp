@@ -179,7 +179,10 @@ struct TaskBuilder {
                             std::ranges::any_of(target.writers, [this](std::uint32_t writer) {
                                 return measures(writer);
                             });
-        if (target.remote) input.ownerPeriod = &agent.ownerPeriod(edge.target);
+        if (target.remote) {
+            input.ownerPeriod = &agent.ownerPeriod(edge.target);
+            input.linkLosses = &agent.linkLosses(edge.target);
+        }
         input.state = agent.tables().edgeSource(number).state;
         if (edge.rule->onLoss == OnLoss::Hold) {
             set.held.push_back(std::make_unique<HeldInput>(

@@ -38,7 +38,9 @@ struct TaskInput {
     const SlotState* state = nullptr;
     std::int64_t maxAge = 0;                    // ns
     const std::int64_t* ownerPeriod = nullptr;  // another agent's: 3 of them are allowed
+    const std::uint32_t* linkLosses = nullptr;  // the same: how often its link was lost
     const HeldInput* held = nullptr;
+    std::uint32_t seenLosses = 0;  // in the last run of the task
     std::uint32_t target = noSimplex;
     bool ages = false;         // something writes it
     bool fromOutside = false;  // it moves on while this loop stands still
@@ -98,6 +100,13 @@ struct TaskRuns {
     std::span<const TextRun> texts;
 };
 
+// The last time for which a device has measured nothing new, but for two of its runs. What follows
+// from its own measurements grows old meanwhile by its own doing.
+struct Silence {
+    std::int64_t since = -1;  // stamp of what it measured last before it; -1: none
+    std::int64_t length = 0;  // ns
+};
+
 // What it looks at when something happens, or where a task does not run in every cycle.
 struct TaskDetails {
     Arbiter* arbiter = nullptr;
@@ -105,6 +114,7 @@ struct TaskDetails {
     std::uint32_t every = 1, phase = 0;
     std::int64_t lastRun = 0;
     std::int64_t stateSince = 0;
+    Silence silence;  // of a task that measures
     bool toldInVain = false;  // in this stay: that what its hooks write does not go out
     Data<std::int64_t> state, faultCode;
     Data<std::string_view> faultText;

@@ -66,11 +66,21 @@ Ds402DemandItems::Ds402DemandItems(const InputSimplex& demand)
       homeOffset_{demand.data<double>("homeOffset")},
       waits_{demand.data<bool>("waits")} {}
 
+void Ds402DemandItems::see(bool isLost, double position, std::int64_t modeDisplay, double seconds) {
+    const AxisTarget demand{position_, velocity_, 0, 0};
+    joining_.standAt(position);
+    joining_.see(demand, seconds);
+    const bool mayJoin = joining_.mayJoin(demand, static_cast<int>(modeDisplay));
+    isAwaited_ = isLost || (isAwaited_ && !mayJoin);
+}
+
 drives::Ds402Inputs Ds402DemandItems::inputs(std::int64_t modeDisplay) const {
     const bool inPosition = modeDisplay == static_cast<int>(Ds402Mode::CyclicPosition);
     const bool inTorque = modeDisplay == static_cast<int>(Ds402Mode::CyclicTorque);
     drives::Ds402Inputs inputs;
     inputs.controlWord = static_cast<std::uint16_t>(controlWord_.get());
+    if (isAwaited_ && drives::commandOf(inputs.controlWord) == drives::Ds402Command::EnableOperation)
+        inputs.controlWord = ds402QuickStop;
     inputs.mode = static_cast<std::int8_t>(mode_.get());
     inputs.position = position_;
     inputs.velocity = velocity_;

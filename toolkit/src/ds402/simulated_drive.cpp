@@ -8,7 +8,6 @@
 namespace cortex::toolkit {
 namespace {
 
-constexpr std::uint16_t quickStop = 0x0002;
 constexpr double ratedAcceleration = 100;  // per s2, of an axis that states no armature
 constexpr double countsPerIndex = 10000;
 constexpr double spareSpeed = 1.5;     // of the axis' greatest, so that it can catch up
@@ -121,8 +120,10 @@ void Ds402SimulatedDrive::loopEnd(const Tick& tick) {
         Axis& axis = axes_[i];
         set(i);
         const double before = axis.drive.outputs().velocity;
-        drives::Ds402Inputs inputs = axis.demand.inputs(axis.drive.outputs().modeDisplay);
-        if (inputLost() || state() == State::Fault) inputs.controlWord = quickStop;
+        const std::int64_t mode = axis.drive.outputs().modeDisplay;
+        axis.demand.see(inputLost(), axis.drive.outputs().position, mode, seconds);
+        drives::Ds402Inputs inputs = axis.demand.inputs(mode);
+        if (inputLost() || state() == State::Fault) inputs.controlWord = ds402QuickStop;
         axis.drive.step(inputs, seconds);
         const drives::Ds402Outputs& outputs = axis.drive.outputs();
         axis.observation.write(outputs, seconds > 0 ? (outputs.velocity - before) / seconds : 0,
@@ -161,8 +162,8 @@ Outcome Ds402SimulatedDrive::reconnect(Call&) {
 }
 
 void Ds402SimulatedDrive::keep(Archive& archive) {
-    archive.version("Ds402SimulatedDrive", 2);
-    for (Axis& axis : axes_) archive & axis.drive & axis.refuses;
+    archive.version("Ds402SimulatedDrive", 3);
+    for (Axis& axis : axes_) archive & axis.drive & axis.demand & axis.refuses;
     archive & report_.exchanges & report_.reconnects;
 }
 

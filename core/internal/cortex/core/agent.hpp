@@ -94,6 +94,10 @@ public:
     const std::int64_t& ownerPeriod(std::uint32_t simplex) const {
         return ownerPeriods_[simplex - firstRemote_];
     }
+    // How often the link to it was lost. Another start of its agent is another link.
+    const std::uint32_t& linkLosses(std::uint32_t simplex) const {
+        return linkLosses_[simplex - firstRemote_];
+    }
     // A simplex of another agent that has not been there since the start; one whose agent was
     // heard, whether or not a value of it has come.
     bool neverLinked(std::uint32_t simplex) const CORTEX_REALTIME {
@@ -195,6 +199,7 @@ private:
     std::vector<LoopThread> threads_;
     PresentCycle present_;
     std::vector<std::int64_t> ownerPeriods_;      // of remote simplexes, which are the last
+    std::vector<std::uint32_t> linkLosses_;       // the same
     std::vector<bool> everOffered_, everLinked_;  // the same
     std::uint32_t firstRemote_ = 0;
     // Per simplex, bits: pending life-cycle commands, and whether its port has work.

@@ -49,8 +49,8 @@ protected:
     // In the tick: bounded and silent. The first two are called in loopEnd(), after the hooks of
     // the states, and begin with zeros. Not while an input is lost, and not in Fault:
     virtual void pack(Out& demand) CORTEX_REALTIME = 0;
-    // In each cycle: what to send in place of that, also when the loop hangs. docs/devices.md says
-    // under `inputLost()` what is right.
+    // In each cycle, before pack(): what to send in place of that, also when the loop hangs.
+    // docs/devices.md says under `inputLost()` what is right.
     virtual void quiet(Out& demand) CORTEX_REALTIME = 0;
     // In loopStart(), in each cycle that has a new answer; received() is the same until the next.
     virtual void unpack(const In& answer) CORTEX_REALTIME = 0;
