@@ -92,8 +92,7 @@ void Ds402ModbusDrive::quiet(Ds402Demand& demand) {
     for (Axis& axis : axes_)
         axis.demand.see(inputLost(), axis.observation.position(), axis.mode, seconds);
     demand = last_;
-    for (Ds402Demand::Axis& axis : demand.axes)
-        axis.inputs.controlWord = toolkit::ds402QuickStop;
+    for (Ds402Demand::Axis& axis : demand.axes) axis.inputs.controlWord = toolkit::ds402QuickStop;
 }
 
 void Ds402ModbusDrive::unpack(const Ds402Answer& answer) {

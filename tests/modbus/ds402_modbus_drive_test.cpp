@@ -160,6 +160,34 @@ TEST_F(Ds402Link, SaysDisabledWhileAnEnabledAxisWaitsForItsDemand) {
     plant.stepUntil("Ready again", [&] { return shows(8, 1); });
 }
 
+TEST_F(Ds402Link, StaysInItsQuickStopUntilADemandThatWasLostRestsAtTheAxis) {
+    Ds402LinkPlant plant{sim, alone};
+    plant.open();
+    Simplex& set = plant.tree().at("/set/a");
+    set.data<std::int64_t>("quickStopOption") = 6;  // it stays enabled
+    for (const std::int64_t word : {0x06, 0x07, 0x0F}) {
+        set.data<std::int64_t>("controlWord") = word;
+        plant.stepWithExchanges(3);
+    }
+    plant.stepUntil("an enabled drive", [&] { return plant.driveState() == operationEnabled; });
+
+    for (const int cycles : {1, 50}) {
+        set.data<double>("position") = 0.5;
+        set.slot().quality = Quality::Lost;
+        plant.step(cycles);
+        set.slot().quality = Quality::Good;
+        plant.stepWithExchanges(10);
+        plant.step();
+        EXPECT_NE(plant.driveState(), operationEnabled);
+        EXPECT_EQ(plant.get<std::int64_t>("/drive/a", "status"), 6) << "Disabled";
+        EXPECT_NEAR(plant.position(), 0, 1e-3);
+
+        set.data<double>("position") = 0.0;
+        plant.stepUntil("an enabled drive", [&] { return plant.driveState() == operationEnabled; });
+    }
+    plant.stepUntil("Ready", [&] { return plant.get<std::int64_t>("/drive/a", "status") == 1; });
+}
+
 TEST(SwappedDs402Link, FollowsDemandsInTheOtherOrderOfWords) {
     SimProcess sim{{"--axes", "2", "--absolute", "--low-word-first", "--counts-per-unit",
                     "10430.378", "--rated-effort", "2.5"}};

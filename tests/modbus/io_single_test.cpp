@@ -189,6 +189,42 @@ TEST_F(ModbusIoOfSingles, GetsNoStepOfARampThatWouldHaveGoneOnWhileItWasAway) {
     });
 }
 
+// Its own silence makes no demand older that follows from what it measured.
+TEST_F(ModbusIoOfSingles, KeepsItsOutputsWhileItIsAwayAndWhenItIsBack) {
+    measure(455, false);  // 25.5 Cel
+    ChamberPlant plant{server.address()};
+    plant.add("/filter", "HoldingFilter", {{"source", "/temperature"}, {"result", "/setpoint"}},
+              {{"timeConstant", "0"}});
+    plant.start();
+    stepUntil(plant, "a measurement",
+              [&] { return plant.quality("/temperature") == Quality::Good; });
+    EXPECT_TRUE(plant.call("/filter", "startup").done());
+    expectOutputs(plant, "0 255 0");
+    const std::size_t before = server.requests().size();
+    for (const int cycles : {20, 300}) {  // of 1 s; the demand may be 3 s old, an answer 40 s
+        const auto reconnects = plant.get<std::int64_t>("/coupler", "reconnectCount");
+        server.leave();
+        plant.step(cycles);
+        server.comeBack();
+        stepUntil(plant, "a coupler that is back", [&] {
+            return plant.get<std::int64_t>("/coupler", "reconnectCount") > reconnects &&
+                   plant.quality("/temperature") == Quality::Good;
+        });
+        for (int cycle = 0; cycle < 20; ++cycle) {
+            server.waitForRequests(8);
+            plant.step();
+        }
+    }
+    const std::vector<Bytes> all = server.requests();
+    int writes = 0;
+    for (std::size_t i = before; i < all.size(); ++i) {
+        if (all[i].size() < 15 || all[i][7] != 16) continue;
+        EXPECT_EQ(all[i][13] * 256 + all[i][14], 255) << "5 Cel would be safe";
+        ++writes;
+    }
+    EXPECT_GT(writes, 40);
+}
+
 std::string chamberRefusal(const std::string& type, const Texts& relates, const Texts& settings) {
     ChamberPlant plant{"127.0.0.1:1", relates};
     if (!type.empty()) plant.add("/more", type, {}, settings);

@@ -272,6 +272,27 @@ TEST_F(RobotiqGripper, IsLostWhenItIsKilledAndWaitsForAPersonWhenItIsBack) {
     EXPECT_NEAR(plant->width(), 0.07, 5e-4);
 }
 
+TEST_F(RobotiqGripper, FollowsADemandThatWasLostOnlyOnceItRestsAtTheFingers) {
+    plant->begin(0.06);
+    plant->stepUntilObject(atDemand);
+    for (const int cycles : {1, 50}) {
+        plant->wish(0.02, 0, 0);
+        plant->tree().at("/wish").slot().quality = Quality::Lost;
+        plant->step(cycles);
+        plant->tree().at("/wish").slot().quality = Quality::Good;
+        plant->settle();
+        EXPECT_EQ(plant->axisStatus(), disabled);
+        EXPECT_NEAR(plant->width(), 0.06, 1e-3);
+
+        plant->wish(0.06, 0, 0);
+        plant->settle();
+        EXPECT_EQ(plant->axisStatus(), ready);
+    }
+    plant->wish(0.03);
+    plant->stepUntilObject(atDemand);
+    EXPECT_NEAR(plant->width(), 0.03, 1e-3);
+}
+
 TEST_F(RobotiqGripper, BeginsNothingBeforeAControllerHasLedItsDemandToTheFingers) {
     plant.emplace(sim.address(), GripperPlant::Pairs{{"stroke", "0.005"}});
     plant->add("/hold", "HoldAxisController", {{"axes", "/opening"}, {"demands", "/wish"}});

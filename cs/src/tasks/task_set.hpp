@@ -114,7 +114,7 @@ struct TaskDetails {
     std::uint32_t every = 1, phase = 0;
     std::int64_t lastRun = 0;
     std::int64_t stateSince = 0;
-    Silence silence;  // of a task that measures
+    Silence silence;          // of a task that measures
     bool toldInVain = false;  // in this stay: that what its hooks write does not go out
     Data<std::int64_t> state, faultCode;
     Data<std::string_view> faultText;

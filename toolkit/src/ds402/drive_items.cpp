@@ -79,7 +79,8 @@ drives::Ds402Inputs Ds402DemandItems::inputs(std::int64_t modeDisplay) const {
     const bool inTorque = modeDisplay == static_cast<int>(Ds402Mode::CyclicTorque);
     drives::Ds402Inputs inputs;
     inputs.controlWord = static_cast<std::uint16_t>(controlWord_.get());
-    if (isAwaited_ && drives::commandOf(inputs.controlWord) == drives::Ds402Command::EnableOperation)
+    if (isAwaited_ &&
+        drives::commandOf(inputs.controlWord) == drives::Ds402Command::EnableOperation)
         inputs.controlWord = ds402QuickStop;
     inputs.mode = static_cast<std::int8_t>(mode_.get());
     inputs.position = position_;
