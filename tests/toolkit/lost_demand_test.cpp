@@ -118,6 +118,36 @@ bool standsUntilItRestsWhereTheAxisIs(const Recipe& recipe) {
     return true;
 }
 
+TEST(LostDemand, LetsAnAxisStopWithinItsAcceleration) {
+    constexpr double top = 1, cycleTime = 1e-3;
+    constexpr double braking = 10, jolt = 100;  // as LimitedAxis has them
+    Rig rig;
+    for (const char* each : {"/demand", "/axis"}) rig.add(each, "LimitedAxis");
+    rig.add("/drive", "SimulatedAxis", {{"demand", "/demand"}, {"observation", "/axis"}});
+    rig.start();
+    rig.startUp();
+    Simplex& demand = rig.tree().at("/demand");
+    for (double now = 0; now < top; now += braking * cycleTime / 2) {
+        demand.data<double>("velocity") = now;
+        demand.data<double>("position") = now * now / braking;
+        rig.step();
+    }
+    demand.slot().quality = Quality::Lost;
+    double before = rig.get<double>("/axis", "velocity");
+    ASSERT_NEAR(before, top, 0.05);
+    const double lostAt = rig.get<double>("/axis", "position");
+    for (int cycle = 0; cycle < 300; ++cycle) {
+        rig.step();
+        const double now = rig.get<double>("/axis", "velocity");
+        EXPECT_LT(std::abs(now - before), 2 * braking * cycleTime) << cycle;
+        EXPECT_EQ(rig.get<std::int64_t>("/axis", "status"), 7) << "Braked";
+        before = now;
+    }
+    EXPECT_NEAR(before, 0, 1e-4);
+    EXPECT_NEAR(rig.get<double>("/axis", "position") - lostAt,
+                top * top / braking / 2 + top * braking / jolt / 2, 0.01);
+}
+
 TEST(LostDemand, IsFollowedAgainByEachClassOnlyOnceItRestsWhereTheAxisIs) {
     int tried = 0;
     for (const Recipe& recipe : recipes()) {

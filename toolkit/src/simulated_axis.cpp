@@ -54,10 +54,18 @@ bool SimulatedAxis::stateStartingUp(const Tick& tick) {
     return !waitsForDemand(tick.elapsedSeconds());
 }
 
-// Nor does it go on with a demand that was lost, or began anew, and is back elsewhere.
+// Nor does it go on with a demand that was lost, or began anew, and is back elsewhere: it stops by
+// the limits of its axis, brakes, and waits.
 void SimulatedAxis::chooseTarget(double seconds) {
     const bool isActive = state() == State::Active;
     const bool stands = std::abs(velocity_) < standstill;
+    if (isActive && inputLost() && targets_.follows())
+        stop_ = {targets_.target().position, targets_.target().velocity, 0};
+    stops_ = isActive && ((inputLost() && targets_.follows()) || (stops_ && !stands));
+    if (stops_) {
+        const auto way = mechanics::planVelocity(stop_, 0, limits_->motion());
+        stop_ = way ? way->at(seconds) : mechanics::MotionState{stop_.position, 0, 0};
+    }
     if (!isActive || inputLost() || (!targets_.follows() && !stands)) targets_.standAt(position_);
     if (!isActive || inputLost()) return;
     if (!targets_.follows() && waitsForDemand(seconds)) return;
@@ -89,14 +97,16 @@ void SimulatedAxis::servo(double seconds) {
     const double decay = std::exp(-damping * seconds);
     const double cosine = std::cos(turn * seconds);
     const double sine = turn * seconds < 1e-6 ? seconds : std::sin(turn * seconds) / turn;
-    const AxisTarget& target = targets_.target();
-    const double error = position_ - target.position;
-    const double errorSpeed = velocity_ - target.velocity;
+    const AxisTarget& followed = targets_.target();
+    const double target = stops_ ? stop_.position : followed.position;
+    const double targetSpeed = stops_ ? stop_.velocity : followed.velocity;
+    const double error = position_ - target;
+    const double errorSpeed = velocity_ - targetSpeed;
     const double newError = decay * (error * cosine + (errorSpeed + damping * error) * sine);
     const double newSpeed =
         decay * (errorSpeed * cosine - (damping * errorSpeed + w * w * error) * sine);
-    position_ = target.position + target.velocity * seconds + newError;
-    velocity_ = target.velocity + newSpeed;
+    position_ = target + targetSpeed * seconds + newError;
+    velocity_ = targetSpeed + newSpeed;
 }
 
 void SimulatedAxis::brake(double seconds) {
@@ -132,7 +142,7 @@ void SimulatedAxis::loopEnd(const Tick& tick) {
     const double before = position_, velocityBefore = velocity_;
     const double seconds = tick.elapsedSeconds();
     chooseTarget(seconds);
-    if (obeys())
+    if (obeys() || stops_)
         servo(seconds);
     else
         brake(seconds);
@@ -145,7 +155,7 @@ void SimulatedAxis::loopEnd(const Tick& tick) {
 
 void SimulatedAxis::keep(Archive& archive) {
     archive.version("SimulatedAxis", 3);
-    archive & position_ & velocity_ & waited_ & atLimit_ & targets_;
+    archive & position_ & velocity_ & waited_ & atLimit_ & targets_ & stop_ & stops_;
 }
 
 }  // namespace cortex::toolkit

@@ -10,8 +10,8 @@
 
 namespace cortex::toolkit {
 
-// A drive and its joint: second order, with the limits of its axis; braked unless Active, and from
-// when its demand is lost until that rests at the joint.
+// A drive and its joint: second order, with the limits of its axis; braked unless Active. It stops
+// when its demand is lost, and stands until that rests at the joint.
 class SimulatedAxis final : public cs::SimplexCS {
 public:
     using SimplexCS::SimplexCS;
@@ -43,8 +43,10 @@ private:
     Data<double> followingError_;
     Data<std::int64_t> limitCount_;
     double position_ = 0, velocity_ = 0;
-    AxisTargets targets_;  // that it acts on
-    double waited_ = 0;    // s, for its demand
+    AxisTargets targets_;          // that it acts on
+    mechanics::MotionState stop_;  // where it stops in place of that, since its demand is lost
+    bool stops_ = false;
+    double waited_ = 0;  // s, for its demand
     bool atLimit_ = false;
 };
 
