@@ -48,8 +48,8 @@ public:
     void restoreState(std::span<const std::byte> saved);
 
 protected:
-    // In hooks: an input is bad, lost or older than its rule allows, in this cycle. For one run also
-    // what was not followed for so long, or comes over another link than in the run before.
+    // In hooks: an input is bad, lost or older than its rule allows, in this cycle. For one run
+    // also what was not followed for so long, or comes over another link than in the run before.
     bool inputLost() const { return inputLost_; }
 
     // Once, in start(), after validation: may allocate and throw. Relationships are complete.
