@@ -4,6 +4,7 @@
 #include "cortex/core/error.hpp"
 #include "cortex/drives/ds402_state.hpp"
 
+#include <chrono>
 #include <cmath>
 #include <utility>
 

@@ -34,6 +34,7 @@ struct Control : testing::Test {
         rig.make();
         for (Hand* hand : {&arm, &axis, &army}) {
             hand->on("poke", [this](Call&) { return ++calls, Outcome::Done; });
+            hand->on("rest", [](Call&) { return Outcome::Done; });
             hand->on("watch", [](Call&) { return Outcome::Running; });
         }
         rig.start();
@@ -287,6 +288,15 @@ TEST_F(RequiredControl, CommandsNeedALease) {
     EXPECT_EQ(ask("desk", "/arm", "poke").outcome, Outcome::Done);
     rig.setState(army, State::Active);
     EXPECT_EQ(ask("hall", "/army", "shutdown").outcome, Outcome::Running);
+}
+
+TEST_F(RequiredControl, WhatOnlyStopsNeedsNoneWhereNobodyElseHasIt) {
+    EXPECT_EQ(ask("hall", "/arm", "rest").outcome, Outcome::Done);
+    EXPECT_EQ(take("desk", "/arm").outcome, Outcome::Done);
+
+    EXPECT_EQ(ask("hall", "/arm", "rest").why, "/arm is held by desk");
+    EXPECT_EQ(ask("desk", "/arm", "rest").outcome, Outcome::Done);
+    EXPECT_EQ(ask("hall", "/army", "rest").outcome, Outcome::Done);
 }
 
 // A command with a prefix to the agent goes to everything below it.

@@ -32,6 +32,7 @@ const Command& go(const XmlModel& model, const std::string& type) {
 TEST(Command, ReadsEveryAttribute) {
     const XmlModel model =
         commands(command("available='Standby Active' long='true' timeout='2.5' confirm='true' "
+                         "stops='true' "
                          "onBusy='replace' onSenderLost='cancel' description='d'",
                          "<request name='to' kind='float' unit='m' max='1' default='0.5'/>"
                          "<request name='how' kind='string' capacity='8'/>"
@@ -39,7 +40,7 @@ TEST(Command, ReadsEveryAttribute) {
     ASSERT_TRUE(isValid(model));
     const Command& c = go(model, "A");
     EXPECT_EQ(c.available.text(), "Standby Active");
-    EXPECT_TRUE(c.isLong && c.confirm);
+    EXPECT_TRUE(c.isLong && c.confirm && c.stops);
     EXPECT_EQ(c.timeout, 2.5);
     EXPECT_EQ(c.onBusy, OnBusy::Replace);
     EXPECT_EQ(c.onSenderLost, OnSenderLost::Cancel);
@@ -147,6 +148,7 @@ TEST(CommandNarrowing, NeverWidensOrChangesTheRecord) {
         finds(commands(command("long='true'"), command("long='false'")), "long-changed", "A", 4));
     EXPECT_TRUE(finds(commands(command("confirm='true'"), command("confirm='false'")),
                       "confirm-loosened", "A", 4));
+    EXPECT_TRUE(finds(commands(command(""), command("stops='true'")), "stops-loosened", "A", 4));
     EXPECT_TRUE(finds(commands(command(""), command("", "<request name='x' kind='int'/>")),
                       "parameters-changed", "A", 4));
     EXPECT_TRUE(finds(commands(command("", "<request name='x' kind='int'/>"),
@@ -154,7 +156,18 @@ TEST(CommandNarrowing, NeverWidensOrChangesTheRecord) {
                       "kind-changed", "A", 4));
 }
 
+TEST(CommandNarrowing, MayAskForControlOfWhatOnlyStops) {
+    const XmlModel model = commands(command("stops='true'"), command("stops='false'"));
+    ASSERT_TRUE(isValid(model));
+    EXPECT_FALSE(go(model, "A").stops);
+}
+
 // Several parents
+
+TEST(CommandIntersection, OnlyStopsWhereBothDo) {
+    EXPECT_FALSE(go(commands(command("stops='true'"), "", command("")), "B").stops);
+    EXPECT_TRUE(go(commands(command("stops='true'"), "", command("stops='true'")), "B").stops);
+}
 
 TEST(CommandIntersection, IsAvailableWhereBothAllow) {
     const XmlModel model = commands(

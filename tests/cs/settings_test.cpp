@@ -137,6 +137,27 @@ TEST_F(Settings, OfArraysTextsAndBoolsAreSeenElementByElement) {
     EXPECT_EQ(seen, "3 2 b on");
 }
 
+TEST_F(Settings, AreNamedByTheirSetAlsoWhereTheirValueStays) {
+    Probe& settled = cluster.probe("/settled", "SettledProbe");
+    std::span<const double> pose;
+    Data<const bool> on;
+    settled.onPopulate = [&](Probe& self) {
+        pose = self.array<const double>("pose");
+        on = self.data<const bool>("on");
+    };
+    std::string seen;
+    settled.onProposed = [&](Probe&, ProposedSettings& proposed) {
+        seen = std::string{proposed.names(pose) ? "pose " : ""} + (proposed.names(on) ? "on" : "");
+    };
+    cluster.start();
+    EXPECT_EQ(seen, "") << "these are the values to begin with";
+
+    cluster.call("/settled", "set", {{"pose", std::vector{0.0, 0.0, 0.0}}});
+    EXPECT_EQ(seen, "pose ");
+    cluster.call("/settled", "set", {{"on", false}});
+    EXPECT_EQ(seen, "on");
+}
+
 TEST_F(Settings, ThatNobodyJudgesAreAppliedAsTheyCome) {
     Probe& plain = cluster.probe("/plain");
     cluster.start();

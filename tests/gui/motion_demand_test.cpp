@@ -152,7 +152,49 @@ TEST_F(Demands, WhatIsNoNumberIsNotSent) {
     EXPECT_TRUE(says("What was entered is no number")) << said().toStdString();
     EXPECT_FALSE(named("Move").isEnabled());
     named("Discard").click();
-    EXPECT_TRUE(canMove("Move"));
+    EXPECT_TRUE(says("enter a target, or Copy current")) << said().toStdString();
+    EXPECT_FALSE(named("Move").isEnabled());
+}
+
+TEST_F(Demands, NothingMovesToATargetThatNobodyGave) {
+    ASSERT_NO_FATAL_FAILURE(opensInControl("/pose"));
+    EXPECT_TRUE(says("enter a target, or Copy current")) << said().toStdString();
+    EXPECT_FALSE(named("Move").isEnabled());
+    named("Copy current").click();
+    ASSERT_TRUE(canMove("Move"));
+    named("Discard").click();
+    EXPECT_TRUE(comes([this] { return !named("Move").isEnabled(); }));
+    enter(1, "0.02");
+    ASSERT_TRUE(canMove("Move"));
+    named("Move").click();
+    EXPECT_TRUE(isAt("/arm/axes/2", 0.02)) << said().toStdString();
+    EXPECT_TRUE(says("Done")) << said().toStdString();
+    EXPECT_TRUE(canMove("Move")) << "what was given once can be gone to again";
+}
+
+TEST_F(Demands, OneAxisIsMovedToWhatWasEnteredForIt) {
+    ASSERT_NO_FATAL_FAILURE(opensInControl("/jog"));
+    named("Position").click();
+    ASSERT_TRUE(comes([this] { return row(0).field().isVisible(); }));
+    EXPECT_FALSE(named("Move A1").isEnabled());
+    enter(1, "0.02");
+    ASSERT_TRUE(canMove("Move A2"));
+    rows().setFocus();
+    QTest::keyClick(&rows(), Qt::Key_Up);
+    EXPECT_TRUE(comes([this] { return !named("Move A1").isEnabled(); }));
+    EXPECT_TRUE(says("enter a target, or Copy current")) << said().toStdString();
+}
+
+TEST_F(Demands, HaltNeedsNoControlWhereNobodyHasIt) {
+    ASSERT_NO_FATAL_FAILURE(opensInControl("/jog"));
+    named("Position").click();
+    ASSERT_TRUE(comes([this] { return row(0).field().isVisible(); }));
+    window.control().release();
+    EXPECT_TRUE(says("read-only: take control of /jog")) << said().toStdString();
+    ASSERT_TRUE(named("Halt").isEnabled());
+    named("Halt").click();
+    EXPECT_TRUE(comes([] { return contains(live({"events"}).output, "halt(): Done"); }))
+        << live({"events"}).output;
 }
 
 TEST_F(Demands, APoseIsCollectedAndAllAxesMoveTogether) {

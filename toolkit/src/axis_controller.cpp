@@ -33,10 +33,13 @@ void AxisController::Axis::write(const MotionState& state) {
     acceleration = state.acceleration;
 }
 
+double AxisController::Axis::nearestInRange() const {
+    return std::clamp<double>(observed, limits.min, limits.max);
+}
+
 MotionState AxisController::Axis::ledBack(double seconds) const {
     const MotionState now = accepted();
-    const double aim = std::clamp<double>(observed, limits.min, limits.max);
-    const auto way = mechanics::planPosition(now, aim, limits.motion());
+    const auto way = mechanics::planPosition(now, nearestInRange(), limits.motion());
     return way ? way->at(seconds) : MotionState{now.position, 0, 0};
 }
 
@@ -57,8 +60,13 @@ void AxisController::populate() {
     takenOver_.resize(axes_.size());
 }
 
+// The demand of an axis that follows stays where it is, and the axis with it.
 bool AxisController::stateStartingUp(const Tick&) {
     takesOver_ = true;
+    for (std::size_t i = 0; i < axes_.size() && !inputLost(); ++i) {
+        const MotionState accepted = axes_[i].accepted();
+        if (accepted.velocity == 0 && follows(i)) axes_[i].write({accepted.position, 0, 0});
+    }
     return true;
 }
 

@@ -12,7 +12,7 @@ using mechanics::MotionLimits;
 
 void AxisPoseController::populate() {
     AxisController::populate();
-    pose_ = array<const double>("pose");
+    pose_.bind(*this, "pose");
     const std::size_t most = std::min(pose_.size(), plan_.maxAxes);
     if (axisCount() > most) requireSameCount(*this, axisCount(), most, "demands");
     shape_ = data<const std::int64_t>("profile");
@@ -27,6 +27,14 @@ void AxisPoseController::populate() {
 bool AxisPoseController::stateStartingUp(const Tick& tick) {
     aims_ = false;
     return AxisController::stateStartingUp(tick);
+}
+
+void AxisPoseController::settingsProposed(ProposedSettings& proposed) { pose_.propose(proposed); }
+
+void AxisPoseController::settingsChanged() { pose_.settle(); }
+
+void AxisPoseController::loopStart(const Tick&) {
+    for (std::size_t i = 0; i < axisCount(); ++i) pose_.show(i, nearestInRange(i));
 }
 
 MotionLimits AxisPoseController::limitsOf(std::size_t axis, double speedShare) const {
@@ -85,11 +93,12 @@ Outcome AxisPoseController::proceed(Call& call) {
 
 Outcome AxisPoseController::runMoveTo(Call& call) {
     if (call.first()) {
-        if (!allFollow(call)) return Outcome::Rejected;
+        if (!pose_.isGiven(call) || !allFollow(call)) return Outcome::Rejected;
         for (std::size_t i = 0; i < axisCount(); ++i) {
             if (!inRange(call, "pose", i, pose_[i])) return Outcome::Rejected;
         }
-        if (!moveTo(pose_, call[speedShare_])) return call.fail("no motion leads to this pose");
+        if (!moveTo(pose_.values(), call[speedShare_]))
+            return call.fail("no motion leads to this pose");
     }
     return proceed(call);
 }

@@ -28,7 +28,7 @@ Profile stopFrom(const MotionState& state, const MotionLimits& limits) {
 void JogController::populate() {
     AxisController::populate();
     motions_.resize(axisCount());
-    demandPosition_ = array<const double>("demandPosition");
+    demandPosition_.bind(*this, "demandPosition");
     demandVelocity_ = array<double>("demandVelocity");
     stepSize_ = array<const double>("stepSize");
     holdTime_ = data<const double>("holdTime");
@@ -108,7 +108,16 @@ void JogController::takeOver(const Tick& tick) {
 }
 
 // Also where it is not Active, or an axis is lost: then move() is not called.
-void JogController::loopStart(const Tick&) { jogging_ = false; }
+void JogController::loopStart(const Tick&) {
+    jogging_ = false;
+    for (std::size_t i = 0; i < axisCount(); ++i) demandPosition_.show(i, nearestInRange(i));
+}
+
+void JogController::settingsProposed(ProposedSettings& proposed) {
+    demandPosition_.propose(proposed);
+}
+
+void JogController::settingsChanged() { demandPosition_.settle(); }
 
 void JogController::move(const Tick& tick) {
     now_ = tick.nominalTime;
@@ -178,7 +187,7 @@ Outcome JogController::runTo(Call& call, std::size_t axis) {
 Outcome JogController::go(Call& call) {
     if (call.first()) {
         const auto axis = axisOf(call, call[goAxis_], "go", Position);
-        if (!axis) return Outcome::Rejected;
+        if (!axis || !demandPosition_.isGiven(call)) return Outcome::Rejected;
         const double position = demandPosition_[*axis];
         if (!inRange(call, "demandPosition", *axis, position)) return Outcome::Rejected;
         interrupted_ = Interrupted::Not;

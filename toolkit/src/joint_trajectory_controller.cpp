@@ -40,8 +40,7 @@ void JointTrajectoryController::populate() {
     files.name.reserve(64);
     files.points = JointPoints{axisCount()};
     for (const InputSimplex& axis : inputs("axes")) {
-        const std::size_t place = observed_.size();
-        observed_.push_back(axis.data<double>("position"));
+        const std::size_t place = files.axes.size();
         files.axes.push_back({axis.path() + " " + axis.type().findData("position")->unit,
                               demandPath(place), limits(place)});
     }
@@ -106,9 +105,9 @@ bool JointTrajectoryController::add(Call& call, std::size_t before) {
         return false;
     }
     for (std::size_t i = 0; i < axisCount(); ++i) {
-        pose_[i] = std::clamp<double>(observed_[i], limits(i).min, limits(i).max);
-        const bool near = std::abs(observed_[i] - pose_[i]) <= overTheEnd;
-        if (!near && !inRange(call, "the observed pose", i, observed_[i])) return false;
+        pose_[i] = nearestInRange(i);
+        const bool near = std::abs(observed(i) - pose_[i]) <= overTheEnd;
+        if (!near && !inRange(call, "the observed pose", i, observed(i))) return false;
     }
     if (!points_->insert(before, pose_)) {
         call.reject(Reason::Range, "there are 64 points already: remove one first");
@@ -172,7 +171,7 @@ bool JointTrajectoryController::standsAt(Call& call, std::size_t point) const {
     constexpr double nearBy = 0.05;  // rad or m
     const auto pose = (*points_)[point];
     for (std::size_t i = 0; i < axisCount(); ++i) {
-        const double away = std::abs(observed_[i] - pose[i]);
+        const double away = std::abs(observed(i) - pose[i]);
         if (away <= nearBy) continue;
         EventText why{demandPath(i)};
         why << " is " << away << " from point 1, more than " << nearBy

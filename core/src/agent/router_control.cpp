@@ -18,6 +18,10 @@ std::string_view textIn(const RecordLayout& request, std::string_view name,
     return reinterpret_cast<const StringCell*>(record + request.find(name)->offset)->view();
 }
 
+bool onlyStops(const CommandTable::Entry& entry) {
+    return entry.command != nullptr && entry.command->stops;
+}
+
 void settle(OutsideEntry& entry, const Verdict& verdict, const ChunkClock& clock) {
     entry.watched = LifeCycle::None;
     entry.settle(verdict, clock);
@@ -26,16 +30,19 @@ void settle(OutsideEntry& entry, const Verdict& verdict, const ChunkClock& clock
 }  // namespace
 
 // What is urgent and the commands about control itself are free; a command with a prefix to the
-// agent goes to everything below it.
+// agent goes to everything below it. What only stops something is refused where somebody else has
+// control, and never because nobody has it.
 void Router::authorise(const OutsideEntry& entry, Verdict& verdict) const {
     if (isUrgent(entry.simplex, entry.command) || isControl(entry.simplex, entry.command)) return;
-    const RecordLayout& request = runtime_.commands(entry.simplex).entries[entry.command].request;
+    const CommandTable::Entry& command = runtime_.commands(entry.simplex).entries[entry.command];
+    const RecordLayout& request = command.request;
     std::string_view path = structure_.simplexes[entry.simplex].path;
     const bool wide = entry.simplex == runtime_.agentSimplex() && takesText(request, "prefix");
     if (wide) path = textIn(request, "prefix", entry.request);
     if (const Lease* lease = leases_.other(path, wide, entry.sender)) {
         verdict = {Outcome::Rejected, Reason::Authority, lease->refusal()};
-    } else if (runtime_.options().controlRequired && !leases_.covered(path, entry.sender)) {
+    } else if (runtime_.options().controlRequired && !onlyStops(command) &&
+               !leases_.covered(path, entry.sender)) {
         verdict = {Outcome::Rejected, Reason::Authority, "control is required: take it first"};
     }
 }

@@ -91,6 +91,7 @@ void intersect(Command& command, const FromParent<Command>& second, const std::s
     differs("onBusy", name(command.onBusy), name(other.onBusy));
     differs("onSenderLost", name(command.onSenderLost), name(other.onSenderLost));
     command.confirm = command.confirm || other.confirm;
+    command.stops = command.stops && other.stops;
     if (command.description.empty()) command.description = other.description;
 }
 
@@ -127,6 +128,13 @@ void narrow(Command& command, const Command& own, const Stated& stated,
                           "leave confirm out");
         }
         command.confirm = command.confirm || own.confirm;
+    }
+    if (stated("stops", own.stops)) {
+        if (own.stops && !command.stops) {
+            context.error(finding::stopsLoosened, "adds stops=\"true\" to an inherited command",
+                          "leave stops out");
+        }
+        command.stops = command.stops && own.stops;
     }
     if (stated("timeout", own.timeout != 0)) command.timeout = own.timeout;
     if (stated("onBusy", own.onBusy != OnBusy::Reject)) command.onBusy = own.onBusy;

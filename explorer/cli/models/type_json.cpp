@@ -103,6 +103,7 @@ Json commandJson(const Command& command) {
               {"long", command.isLong},
               {"timeout_s", command.timeout > 0 ? Json(command.timeout) : Json()},
               {"confirm", command.confirm},
+              {"stops", command.stops},
               {"on_busy", name(command.onBusy)},
               {"on_sender_lost", name(command.onSenderLost)},
               {"request", parametersJson(command.request)},

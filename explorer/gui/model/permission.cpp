@@ -22,15 +22,19 @@ bool isOfAgent(const Frame& frame, Place place) { return frame.type(place).isA("
 
 std::optional<std::string> neededFor(const Frame& frame, Place place, std::string_view command,
                                      const comms::Mirror::Arguments& arguments) {
-    const Type& type = frame.type(place);
-    const auto found = std::ranges::find(type.commands, command, &Command::name);
+    const Command* found = frame.type(place).findCommand(command);
     const DataItem* prefix = nullptr;
-    if (found != type.commands.end()) {
+    if (found != nullptr) {
         const auto named = std::ranges::find(found->request, "prefix", &DataItem::name);
         if (named != found->request.end()) prefix = &*named;
     }
     return common::neededControl(frame.info(place).path, isOfAgent(frame, place), command, prefix,
                                  arguments);
+}
+
+bool onlyStops(const Type& type, std::string_view command) {
+    const Command* found = type.findCommand(command);
+    return found != nullptr && found->stops;
 }
 
 // The part of the plant that control is taken of, where it is lacking.
@@ -56,6 +60,7 @@ QString whyNotControlled(const Frame& frame, Place place, std::string_view comma
             .arg(shortNameOf(frame.control, lease.holder), clockText(lease.since),
                  ageText(lease.seconds));
     }
+    if (onlyStops(frame.type(place), command)) return {};
     return readOnlyText(offered(frame, place, *needed));
 }
 

@@ -13,8 +13,9 @@ namespace cortex::gui {
 // Why nothing can be sent to the simplex now that needs one of these states; empty: it can be sent.
 // "needs Standby", "held by alice since 12:03 (4 min)", "read-only: take control of
 // /arm", "robot is not heard".
-// What stops something needs no control, whatever the command is that is named. Without a name it
-// is items that are set. What a command to an agent itself needs follows from its arguments.
+// Shutdown and cancel need no control, and what its type says only stops something needs none where
+// nobody else has it. Without a name it is items that are set. What a command to an agent itself
+// needs follows from its arguments.
 QString whyNotNow(const Frame& frame, Place place, StateSet available,
                   std::string_view command = {}, const comms::Mirror::Arguments& arguments = {});
 

@@ -133,6 +133,7 @@ void AxisView::takeIn(const SystemNow& now) {
         sent_[i] = controller.number(item_, i).value_or(sent_[i]);
     }
     holdTime_ = controller.number("holdTime").value_or(0);
+    given_ = controller.text("targetGiven") == QLatin1String{"true"};
     remaining_ = controller.number("remaining");
     const auto mode = controller.number("mode");
     const auto known = mode ? static_cast<std::size_t>(*mode) : modes.size();

@@ -61,11 +61,14 @@ private:
     ShownNumber velocityOf(const MotionAxis& axis) const;
     const MotionAxis& axis(int index) const { return axes_[static_cast<std::size_t>(index)]; }
     std::optional<double> demandOf(int axis) const;  // as entered, otherwise as it was sent
-    QString wrongDemand(int axis) const;             // why it is refused; empty: nothing is wrong
+    bool hasTarget() const;               // somebody gave what Move would go to, or entered it here
+    QString wrongDemand(int axis) const;  // why it is refused; empty: nothing is wrong
 
     std::string path_, item_;  // of the demands: "demandPosition", "pose"
     bool jogs_ = true;         // false: an AxisPoseController
     bool bound_ = false, unitsInRows_ = false;
+    bool given_ =
+        false;  // somebody has given sent_ to the controller; else it is where the axes are
     std::vector<MotionAxis> axes_;
     std::vector<double> sent_;  // demands as the controller has them
     QString mode_, whyNot_;     // of jog

@@ -7,7 +7,9 @@
 #include "motion/motion_page.hpp"
 
 #include <QPushButton>
+#include <algorithm>
 #include <cmath>
+#include <ranges>
 
 namespace cortex::explorer {
 
@@ -31,6 +33,13 @@ std::optional<double> AxisView::demandOf(int axis) const {
     const auto index = static_cast<std::size_t>(axis);
     if (demands_->has(index)) return demands_->entered(index);
     return index < sent_.size() ? std::optional{sent_[index]} : std::nullopt;
+}
+
+bool AxisView::hasTarget() const {
+    if (given_) return true;
+    const auto entered = [this](int i) { return demands_->has(static_cast<std::size_t>(i)); };
+    return jogs_ ? entered(rows_->selected())
+                 : std::ranges::any_of(std::views::iota(0, rows_->count()), entered);
 }
 
 // The controller has the last word: what is beyond a limit is marked, and can be sent.
@@ -149,6 +158,7 @@ void AxisView::showDemands() {
     const QString action = jogs_ ? tr("Move %1").arg(axis(rows_->selected()).name) : tr("Move");
     const QString why = !whyNot_.isEmpty()    ? whyNot_
                         : demands_->isWrong() ? tr("What was entered is no number")
+                        : !hasTarget()        ? tr("enter a target, or Copy current")
                                               : QString{};
     const int share = qRound(bar_->share() * 100);
     QStringList wrong;

@@ -44,6 +44,15 @@ public:
     std::span<const T> operator[](std::span<T> items) const CORTEX_REALTIME {
         return {static_cast<const T*>(valueOf(items.data())), items.size()};
     }
+    // Whether the request names this item, be its value another one or not.
+    template <class T>
+    bool names(const Data<T>& item) const CORTEX_REALTIME {
+        return valueOf(&item.cell()) != &item.cell();
+    }
+    template <ArrayElement T>
+    bool names(std::span<T> items) const CORTEX_REALTIME {
+        return valueOf(items.data()) != items.data();
+    }
     // Nothing is applied, and the sender gets the text. The first refusal is kept.
     void refuse(std::string_view why) CORTEX_REALTIME {
         if (!why_) why_.emplace(why);

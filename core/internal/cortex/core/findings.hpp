@@ -91,6 +91,7 @@ inline constexpr char parametersChanged[] = "parameters-changed";
 inline constexpr char availabilityWidened[] = "availability-widened";
 inline constexpr char longChanged[] = "long-changed";
 inline constexpr char confirmLoosened[] = "confirm-loosened";
+inline constexpr char stopsLoosened[] = "stops-loosened";
 inline constexpr char timeout[] = "timeout";
 inline constexpr char recordSize[] = "record-size";
 

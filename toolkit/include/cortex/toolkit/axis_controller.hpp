@@ -40,6 +40,11 @@ protected:
     std::span<mechanics::MotionState> demands() { return demands_; }
     // In takeOver(): whether the demand of this axis is not what was written.
     bool takesOver(std::size_t axis) const { return takenOver_[axis] != 0; }
+    double observed(std::size_t axis) const { return axes_[axis].observed; }
+    // The observed position, within the limits of the axis.
+    double nearestInRange(std::size_t axis) const CORTEX_REALTIME {
+        return axes_[axis].nearestInRange();
+    }
     const AxisLimits& limits(std::size_t axis) const { return axes_[axis].limits; }
     const std::string& demandPath(std::size_t axis) const { return axes_[axis].path; }
 
@@ -66,6 +71,7 @@ private:
 
         mechanics::MotionState accepted() const CORTEX_REALTIME;
         void write(const mechanics::MotionState& state) CORTEX_REALTIME;
+        double nearestInRange() const CORTEX_REALTIME;
         // A cycle later, on the way back to where the axis is.
         mechanics::MotionState ledBack(double seconds) const CORTEX_REALTIME;
     };

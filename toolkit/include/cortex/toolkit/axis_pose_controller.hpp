@@ -3,6 +3,7 @@
 
 #include "cortex/mechanics/synchronous_move.hpp"
 #include "cortex/toolkit/axis_controller.hpp"
+#include "cortex/toolkit/target_item.hpp"
 
 #include <cstdint>
 #include <span>
@@ -17,6 +18,9 @@ public:
 
 protected:
     void populate() override;
+    void loopStart(const Tick& tick) CORTEX_REALTIME override;
+    void settingsProposed(ProposedSettings& proposed) CORTEX_REALTIME override;
+    void settingsChanged() CORTEX_REALTIME override;
     bool stateStartingUp(const Tick& tick) CORTEX_REALTIME override;
     void takeOver(const Tick& tick) CORTEX_REALTIME override;
     void move(const Tick& tick) CORTEX_REALTIME override;
@@ -37,7 +41,7 @@ private:
     Outcome runMoveTo(Call& call) CORTEX_REALTIME;
     mechanics::MotionLimits limitsOf(std::size_t axis, double speedShare) const CORTEX_REALTIME;
 
-    std::span<const double> pose_;
+    TargetItem pose_;
     Data<const std::int64_t> shape_;
     Data<double> progress_, remaining_;
     Argument<double> speedShare_;

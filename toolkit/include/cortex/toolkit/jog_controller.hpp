@@ -3,6 +3,7 @@
 
 #include "cortex/toolkit/axis_controller.hpp"
 #include "cortex/toolkit/held_jog.hpp"
+#include "cortex/toolkit/target_item.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -22,6 +23,8 @@ protected:
 
     void populate() override;
     void loopStart(const Tick& tick) CORTEX_REALTIME override;
+    void settingsProposed(ProposedSettings& proposed) CORTEX_REALTIME override;
+    void settingsChanged() CORTEX_REALTIME override;
     void takeOver(const Tick& tick) CORTEX_REALTIME override;
     void move(const Tick& tick) CORTEX_REALTIME override;
     void keep(Archive& archive) CORTEX_REALTIME override;
@@ -61,7 +64,8 @@ private:
     void keepBeforeLimits(std::size_t axis, double seconds) CORTEX_REALTIME;
 
     std::vector<Motion> motions_;
-    std::span<const double> demandPosition_, stepSize_;
+    TargetItem demandPosition_;
+    std::span<const double> stepSize_;
     std::span<double> demandVelocity_;
     Data<const double> holdTime_, speedShare_;
     Data<double> progress_;

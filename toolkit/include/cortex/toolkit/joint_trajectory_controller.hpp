@@ -52,7 +52,6 @@ private:
 
     std::unique_ptr<JointPoints> points_;
     std::unique_ptr<Files> files_;
-    std::vector<Data<const double>> observed_;
     std::vector<double> pose_;  // observed, kept within the limits
     Data<std::int64_t> pointCount_, point_;
     Data<std::string_view> name_;
