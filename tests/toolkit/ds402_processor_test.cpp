@@ -372,12 +372,12 @@ TEST(ADriveOfTheToolkit, IsLedAndHomedAndMovedByAPoseController) {
     rig.add("/pose", "AxisPoseController", {{"axes", "/axis"}, {"demands", "/demand"}});
     rig.start();
     rig.startUp();
-    EXPECT_NE(rig.call("/pose", "moveTo").why.find("its drive says NotHomed"), std::string::npos);
-    EXPECT_TRUE(rig.call("/it", "home").done());
-    rig.step(2);
     std::vector<double> pose(16);
     pose[0] = 0.5;
     EXPECT_TRUE(rig.call("/pose", "set", {{"pose", pose}}).done());
+    EXPECT_NE(rig.call("/pose", "moveTo").why.find("its drive says NotHomed"), std::string::npos);
+    EXPECT_TRUE(rig.call("/it", "home").done());
+    rig.step(2);
 
     const CallResult answer = rig.call("/pose", "moveTo");
     rig.step(200);

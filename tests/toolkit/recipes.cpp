@@ -59,6 +59,13 @@ void feedAxis(Rig& rig, std::int64_t cycle, double past) {
     write(rig, "/axis", "position", std::sin(angleAt(cycle, past) + past));
 }
 
+// To 0, and it is still on its way at the end.
+void moveSlowly(Rig& rig, std::int64_t cycle) {
+    if (cycle != runUp - 30) return;
+    rig.cluster().send("/it", "set", {{"pose", std::vector<double>(16)}});
+    rig.cluster().send("/it", "moveTo", {{"speedShare", 0.01}});
+}
+
 void buildChain(Rig& rig, const std::string& type, Rig::Pairs relates) {
     const char* directions[] = {"0 0 1", "0 1 0", "0 1 0"};
     for (int i = 0; i < 3; ++i) {
@@ -183,14 +190,14 @@ const std::vector<Recipe> allRecipes{
     {"AxisPoseController", true, [](Rig& rig) { buildAxes(rig, "AxisPoseController", "demands"); },
      [](Rig& rig, std::int64_t cycle, double past) {
          feedAxis(rig, cycle, past);
-         if (cycle == runUp - 30) rig.cluster().send("/it", "moveTo", {{"speedShare", 0.01}});
+         moveSlowly(rig, cycle);
      }},
     {"JointTrajectoryController", true,
      [](Rig& rig) { buildAxes(rig, "JointTrajectoryController", "demands"); },
      [](Rig& rig, std::int64_t cycle, double past) {
          feedAxis(rig, cycle, past);
          if (cycle == 150) rig.cluster().send("/it", "teach");
-         if (cycle == runUp - 30) rig.cluster().send("/it", "moveTo", {{"speedShare", 0.01}});
+         moveSlowly(rig, cycle);
      }},
     {"JogController", true, [](Rig& rig) { buildAxes(rig, "JogController", "demands"); },
      [](Rig& rig, std::int64_t cycle, double past) {

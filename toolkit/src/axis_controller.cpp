@@ -60,12 +60,13 @@ void AxisController::populate() {
     takenOver_.resize(axes_.size());
 }
 
-// The demand of an axis that follows stays where it is, and the axis with it.
+// The demand of an axis whose drive says that it follows stays where it is, and the axis with it.
 bool AxisController::stateStartingUp(const Tick&) {
     takesOver_ = true;
     for (std::size_t i = 0; i < axes_.size() && !inputLost(); ++i) {
+        const bool saysSo = axes_[i].status != unknownStatus && follows(i);
         const MotionState accepted = axes_[i].accepted();
-        if (accepted.velocity == 0 && follows(i)) axes_[i].write({accepted.position, 0, 0});
+        if (saysSo && accepted.velocity == 0) axes_[i].write(accepted);
     }
     return true;
 }
