@@ -181,8 +181,8 @@ TEST(Mirror, ReportsEveryImageInOrderToWhoAskedForEveryCycle) {
 TEST(Mirror, EndsAListeningWhenItIsToldToAndRefusesAnEmptyFunction) {
     const auto agent = robot();
     agent->run();
-    Mirror mirror{"test", loopback()};
     std::atomic<int> images{0};
+    Mirror mirror{"test", loopback()};
     Listening listening;
     {
         auto told = std::make_unique<std::atomic<int>>(0);  // ends before the mirror

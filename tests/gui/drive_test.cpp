@@ -251,12 +251,13 @@ TEST_F(DriveRig, AnAxisThatIsHomedAndOneThatNeedsNoneAreTold) {
     EXPECT_EQ(band(1).homing().homeButton().accessibleDescription(), "needs Operation enabled");
 }
 
-TEST_F(DriveRig, WithoutControlOrInAnotherStateOfTheProcessorAllIsOffAndSaysWhy) {
+TEST_F(DriveRig, WithoutControlOrInAnotherStateOfTheProcessorAllButAStopIsOffAndSaysWhy) {
     controls = false;
     show();
     const QString why = "read-only: take control of /table";
-    for (const char* command : {"enable", "disable", "quickStop", "resetFault"})
+    for (const char* command : {"enable", "disable", "resetFault"})
         EXPECT_EQ(action(1, command).accessibleDescription(), why) << command;
+    EXPECT_TRUE(action(1, "quickStop").isEnabled());
     EXPECT_EQ(step(1, 5).accessibleDescription(), why);
     EXPECT_EQ(mode(1, 9).toolTip(), why);
     EXPECT_TRUE(saidIn(band(1)).contains("|" + why + ".")) << saidIn(band(1)).toStdString();

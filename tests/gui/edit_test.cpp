@@ -243,7 +243,7 @@ TEST_F(EditingArrays, ElementsAreEnteredOneByOne) {
     ASSERT_TRUE(takes("/controller"));
     enters(2, "0.25", Qt::Key_Tab);
     EXPECT_EQ(element(2).data(), "0.25");
-    EXPECT_TRUE(shows(1, "0"));
+    EXPECT_TRUE(shows(4, "0"));
     for (int i = 0; i < 3 && field() != nullptr; ++i) QTest::keyClick(field(), Qt::Key_Backtab);
     EXPECT_TRUE(field() == nullptr || !field()->text().contains(' '))
         << "the whole array is passed by, as its elements are open";
