@@ -67,8 +67,7 @@ private:
     std::string path_, item_;  // of the demands: "demandPosition", "pose"
     bool jogs_ = true;         // false: an AxisPoseController
     bool bound_ = false, unitsInRows_ = false;
-    bool given_ =
-        false;  // somebody has given sent_ to the controller; else it is where the axes are
+    bool given_ = false;  // sent_ is what somebody gave; otherwise it is where the axes are
     std::vector<MotionAxis> axes_;
     std::vector<double> sent_;  // demands as the controller has them
     QString mode_, whyNot_;     // of jog

@@ -12,7 +12,8 @@ namespace cortex::toolkit {
 
 // An item that says where axes are to go, in rad or m. It is a target once a `set`, a file or the
 // command line gave it a value since the start of the agent, and the item `targetGiven` tells that.
-// Until then it shows where the axes are, and whatever leads there is to be refused.
+// Until then it shows where the axes are, and whatever leads there is to be refused. A class that
+// derives from its owner and overrides a hook calls that of the base, or nothing is ever given.
 class TargetItem {
 public:
     // In populate().
