@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs tests with ctest and judges: `run_tests.py STAGE FOLDER CTEST-OPTION…`.
 
-What fails is run again, alone, at most twice; what passes then is unsteady, and named. Never run
-again are tests labelled `exact`, and nothing is where a sanitizer has reported. A process holds
-many test cases, so what is counted and named are those. Logs, and what the summary of
+What fails is run again, alone, at most twice; what passes then is unsteady, and named. A test that is
+labelled `exact` is not where it judged what came: only where something did not come in time, or the
+limit of ctest ended it. Nothing is where a sanitizer has reported. A process holds many test cases,
+so what is counted and named are those. Logs, and what the summary of
 `./run test` tells, are in build/logs. Ends with 0 where nothing is red."""
 import argparse
 import datetime
@@ -22,6 +23,7 @@ LONGEST_DAYS = 30  # that a line may stand there
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 CASE = r"[^\s,:]+\.[^\s,:]+"
 NOT_SHOWN = re.compile(r" *Start +\d+:|\[ (RUN     |      OK) \]")
+IN_VAIN = re.compile(r"\bdid not come in \d+ s\b")  # support/waiting.hpp
 PASSED = re.compile(r" Passed +[0-9.]+ sec$")
 
 
@@ -72,6 +74,11 @@ def failed_processes(folder):
     return [line.split(":", 1)[1] for line in read(log).splitlines() if ":" in line]
 
 
+def timed_out(log):
+    """The processes that the limit of ctest has ended."""
+    return set(re.findall(r"Test +#\d+: (\S+) \.*\*\*\*Timeout", read(log)))
+
+
 def read(path):
     return path.read_text(encoding="utf-8", errors="replace") if path.exists() else ""
 
@@ -98,6 +105,13 @@ def failed_cases(lines):
     if begun:
         cases[begun] = text
     return cases
+
+
+def judged_what_came(lines):
+    """False where the first failure of a case is that something did not come in time."""
+    begins = [number for number, line in enumerate(lines) if line.endswith(": Failure")]
+    first = lines[begins[0]:(begins + [len(lines)])[1]] if begins else []
+    return not any(map(IN_VAIN.search, first))
 
 
 def untold(printed, failed):
@@ -244,6 +258,14 @@ def count_passed(printed, failed):
     return sum(name not in failed if count is None else count for name, count in counts.items())
 
 
+def exact_cases(exact, cases, log):
+    """Those of these processes' cases that judged what came, and so are not tried again."""
+    ended = timed_out(log)
+    return [case for process in cases if process in exact
+            for number, (case, lines) in enumerate(reversed(cases[process].items()))
+            if judged_what_came(lines) and not (number == 0 and process in ended)]
+
+
 def judge(arguments, folder, logs, reports):
     stage, options = arguments.stage, arguments.options
     environment, verdict = reports_environment(reports), Verdict()
@@ -256,12 +278,12 @@ def judge(arguments, folder, logs, reports):
     processes = failed_processes(folder)
     verdict.passed = count_passed(verdict.outputs, processes)
     cases = cases_that_failed(processes, verdict.outputs)
-    exact = {test["name"] for test in all_tests(folder) if re.search(r"\bexact\b", labels(test))}
     verdict.red = sanitizer_reports(reports) + untold(verdict.outputs, processes)
     if status != 0 and not processes:
         verdict.red.append(f"ctest ended with {status}")
+    exact = {test["name"] for test in all_tests(folder) if re.search(r"\bexact\b", labels(test))}
     verdict.red += [f"{case} is exact, so it is not run again"
-                    for process in processes if process in exact for case in cases[process]]
+                    for case in exact_cases(exact, cases, logs / f"ctest-{stage}.log")]
     if verdict.red or not processes:
         verdict.failed = [case for process in processes for case in cases[process]]
         return verdict
@@ -280,6 +302,9 @@ def judge(arguments, folder, logs, reports):
             if case not in verdict.failed:
                 verdict.unsteady.setdefault(case, text)
     verdict.red += [f"{case} failed each time" for case in verdict.failed]
+    verdict.red += [f"{case} is exact, and failed at the second try" for case in
+                    exact_cases(exact, later, logs / f"ctest-{stage}-again.log")
+                    if case not in verdict.failed]
     verdict.red += sanitizer_reports(reports) + untold(again, still)
     return verdict
 

@@ -2,6 +2,7 @@
 #include "cortex/core/validation.hpp"
 
 #include "core/model_folder.hpp"
+#include "core/xml_model.hpp"
 
 #include <limits>
 #include <regex>

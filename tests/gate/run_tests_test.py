@@ -93,6 +93,45 @@ class RunTests(unittest.TestCase):
         self.assertIn("A.Exact is exact", told["red"])
         self.assertEqual((self.folder / "A.Exact").read_text(), "1\n", "it was started once")
 
+    def test_an_exact_one_is_run_again_where_something_did_not_come(self):
+        self.program("fails", FAILS.replace("what $case saw", "a.cpp:1: Failure\\nthe answer did not "
+                                            "come in 60 s\\na.cpp:2: Failure\\n  2\\n  3"))
+        self.fails("A.Exact", 1, label="unit-cs-exact")
+        self.add("hangs", "sh", "-c", "echo '[ RUN      ] A.Hang'; [ -e hung ] && echo '[       OK ] A.Hang (0 ms)' && "
+                 "exit; : >hung; sleep 60", label="unit-cs-exact", timeout=1)
+        code, told = self.run_tests()
+        self.assertEqual(code, 0, self.output)
+        self.assertIn("A.Exact: failed, then passed alone", told["unsteady"])
+        self.assertIn("A.Hang", told["unsteady"])
+
+    def test_an_exact_one_that_judges_before_something_does_not_come_is_red(self):
+        self.program("fails", FAILS.replace("what $case saw", "a.cpp:1: Failure\\n  2\\n  3\\na.cpp:2: "
+                                            "Failure\\nthe answer did not come in 60 s"))
+        self.fails("A.Exact", 1, label="unit-cs-exact")
+        self.add("hangs", "sh", "-c", "echo '[ RUN      ] A.Wrong'; echo '[  FAILED  ] A.Wrong (0 ms)'; "
+                 "echo '[ RUN      ] A.Hang'; sleep 60", label="unit-cs-exact", timeout=1)
+        code, told = self.run_tests()
+        self.assertEqual(code, 1)
+        self.assertIn("A.Exact is exact", told["red"])
+        self.assertIn("A.Wrong is exact", told["red"])
+        self.assertNotIn("A.Hang", told["red"])
+
+    def test_an_exact_one_that_judges_at_its_second_try_is_red(self):
+        self.program("fails", """#!/bin/sh
+count=$(cat count 2>/dev/null || echo 0)
+echo $((count + 1)) >count
+echo '[ RUN      ] A.Exact'
+echo 'a.cpp:1: Failure'
+[ "$count" -eq 2 ] && { echo '[       OK ] A.Exact (0 ms)'; echo '[  PASSED  ] 1 test.'; exit 0; }
+[ "$count" -eq 0 ] && echo 'it did not come in 60 s' || echo 'it is wrong'
+echo '[  FAILED  ] A.Exact (0 ms)'
+exit 1
+""")
+        self.fails("A.Exact", 1, label="unit-cs-exact")
+        code, told = self.run_tests()
+        self.assertEqual(code, 1)
+        self.assertIn("A.Exact is exact, and failed at the second try", told["red"])
+
     def test_a_report_of_a_sanitizer_in_a_program_that_a_test_started_is_red(self):
         source = self.folder / "agent.cpp"
         source.write_text("int main() { int* p = new int{1}; delete p; return *p; }\n")

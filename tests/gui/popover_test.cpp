@@ -7,6 +7,7 @@
 #include "window/find_panel.hpp"
 #include "window/stop_button.hpp"
 
+#include <QBoxLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <QScreen>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a demand of an axis does while it is lost, nobody sees. So whoever acts on it stands still
 // until it rests where the axis is.
+#include "cortex/core/agent.hpp"
 #include "cortex/core/structure.hpp"
 
 #include "recipes.hpp"
