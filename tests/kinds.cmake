@@ -47,3 +47,7 @@ set(timed_gui-session-tests Session.TakesValues*)
 set(timed_network-tests AttackedPlant.* TwoHosts.* Stations.*)
 set(timed_process-tests EndOfAProcess.* TwoAgents.*Killed* TwoAgents.*Hold*
     RetainedValues.LoseAtMost*)
+
+# `also`: of those that judge time, one of each stands in the gate, too, and judges in cycles there.
+set(also_gui-motion-tests JoggingProcess.*Killed)
+set(also_process-tests EndOfAProcess.ComesWhilePopulate* TwoAgents.TheArmHolds*)

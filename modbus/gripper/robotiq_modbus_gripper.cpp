@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -83,14 +84,18 @@ void RobotiqModbusGripper::identify(ModbusClient& client) {
     read(client);
 }
 
-// One that is not activated is told nothing: rACT would activate it, and move its fingers.
+// One that is not activated is told nothing: rACT would activate it, and move its fingers. So the
+// register that holds it is written only until the gripper goes where it is told: one that lost its
+// power since it was read stays without.
 void RobotiqModbusGripper::talk(ModbusClient& client, const RobotiqDemand& demand,
                                 RobotiqAnswer& answer) {
     answer.time = std::chrono::nanoseconds{cs::Pace::Clock::now().time_since_epoch()}.count();
     answer.activations = activations_;
     answer.status = read(client);
-    if (demand.isWished && isActivated(answer.status))
-        client.writeRegisters(RobotiqMap::request, encode(demand.request));
+    if (!demand.isWished || !isActivated(answer.status)) return;
+    const RobotiqImage image = encode(demand.request);
+    const std::uint16_t first = answer.status.goesTo == demand.request.goTo ? 1 : 0;
+    client.writeRegisters(RobotiqMap::request + first, std::span{image}.subspan(first));
 }
 
 // Only a rising edge of rACT activates.

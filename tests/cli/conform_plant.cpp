@@ -77,12 +77,12 @@ void ConformPlant::setStops(const std::string& path, double least, double most) 
     live({"set", path, "stops=" + std::to_string(least) + " " + std::to_string(most) + " 0 0"});
 }
 
-void ConformPlant::start() {
+void ConformPlant::start(std::chrono::microseconds rest) {
     plant_.start();
-    steps_ = std::thread{[this] {
+    steps_ = std::thread{[this, rest] {
         while (!ends_) {
             plant_.step();
-            std::this_thread::sleep_for(std::chrono::microseconds{200});
+            std::this_thread::sleep_for(rest);
         }
     }};
 }

@@ -4,14 +4,14 @@
 #include "cortex/cs/testing.hpp"
 
 #include <atomic>
+#include <chrono>
 #include <string>
 #include <thread>
 
 namespace cortex::test {
 
 // The agent "bench" of this process on the network of the test, with the shipped types and those of
-// tests/data/conform-types.xml. From start() on a thread steps it, a good deal faster than its own
-// time: 100 cycles are one second of it.
+// tests/data/conform-types.xml. From start() on a thread steps it: 100 cycles are one second of it.
 class ConformPlant {
 public:
     ConformPlant();
@@ -33,7 +33,8 @@ public:
     // PATH is a drive of two jaws, half open, with PATH/is, PATH/set, PATH/wish, the processor
     // PATH/lead and the controller PATH/move.
     void addGripper(const std::string& path);
-    void start();
+    // It rests so long between two cycles. By itself it runs a good deal faster than its own time.
+    void start(std::chrono::microseconds rest = std::chrono::microseconds{200});
     // What the mechanics of a simulated drive allow.
     void setStops(const std::string& path, double least, double most);
 

@@ -305,17 +305,19 @@ TEST(CortexConform, OpensClosesAndGripsWhatIsBetweenTheJaws) {
     }
 }
 
-// An interrupt on the way of a slow motion.
+// An interrupt on the way of a slow motion. The plant is no faster than time, so that the motion
+// lasts until the interrupt comes.
 TEST(CortexConform, PutsEverythingBackWhereItIsInterrupted) {
     ConformPlant plant;
     plant.addAxis("/arm", "SimulatedAxis");
-    plant.start();
+    plant.start(std::chrono::milliseconds{10});
     const Value pose = plant.value("/arm/move", "pose");
     OnTerminal run{cortexCommand({"conform", "/arm", "--move", "0.4", "--speed", "0.05"})};
-    ASSERT_TRUE(becomesTrue([&] { return plant.number("/arm/is", "position") > 0.05; }))
-        << run.output();
+    const bool moves = becomesTrue([&] { return plant.number("/arm/is", "position") > 0.05; });
 
     run.signal(SIGINT);
+
+    ASSERT_TRUE(moves) << run.exit() << ": " << run.output();
 
     EXPECT_EQ(run.exit(), -SIGINT) << run.output();
     EXPECT_EQ(plant.state("/arm"), State::Standby) << run.output();

@@ -129,7 +129,11 @@ protected:
                 }
                 ASSERT_TRUE(came) << kind << " of seed " << seed << " and at most " << most
                                   << " octets: " << inbox.elements().size() << " of " << together
-                                  << " came" << writer.end();
+                                  << " came; "
+                                  << (writer.end().empty()
+                                          ? "the others did not come in " +
+                                                std::to_string(test::patience.count()) + " s"
+                                          : writer.end());
                 compareThese(kind, inbox.take(), together, seed, most, mayBeLost);
                 done += together;
             }

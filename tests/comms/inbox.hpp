@@ -46,8 +46,8 @@ public:
     bool waitFor(std::size_t count, const test::Place& place = test::Place::current()) {
         if (waitUntil([count](const auto& all) { return all.size() >= count; })) return true;
         ADD_FAILURE_AT(place.file_name(), static_cast<int>(place.line()))
-            << elements().size() << " of " << count << " came in " << test::patience.count()
-            << " s";
+            << elements().size() << " of " << count << " came; the others did not come in "
+            << test::patience.count() << " s";
         return false;
     }
     std::vector<T> elements() const {

@@ -27,7 +27,7 @@ enum Reason : std::int64_t { HandMoves = 1, InputLost = 4 };
 // A few in CI, 50 for the figures: CORTEX_KILL_ROUNDS.
 std::size_t rounds() {
     const char* text = std::getenv("CORTEX_KILL_ROUNDS");
-    return text != nullptr ? std::stoul(text) : 2;
+    return text != nullptr ? std::stoul(text) : judgesTime ? 2 : 1;
 }
 
 // Presses, moves and releases every 2 s, so that nobody waits for the next press.
@@ -155,6 +155,7 @@ void TwoAgents::expectHoldInTime() {
     heldAt.push_back(age.found * 1e-3);
     EXPECT_GE(age.allowed, 50);
     // A cycle may begin late by up to a period before it counts as missed.
+    if (!judgesTime) return;
     EXPECT_LE(age.found, age.allowed + period * (2 + missedBefore(held->cycle, 60))) << why->text;
 }
 
