@@ -7,6 +7,8 @@
 #include "cortex/cs/cluster_cs.hpp"
 #include "cortex/cs/testing.hpp"
 
+#include "support/patience.hpp"
+
 #include <algorithm>
 #include <chrono>
 
@@ -142,7 +144,9 @@ Observation runOnThreads(const Plan& plan, std::uint32_t threads, std::uint64_t 
     Observation observation;
     bool recording = true;
     cs::ClusterCS cluster{"test", options};
-    cs::ClusterTesting::set(cluster, {.forceThreads = true, .chunkSize = plan.chunkSize});
+    cs::ClusterTesting::set(cluster, {.forceThreads = true,
+                                      .chunkSize = plan.chunkSize,
+                                      .endBudget = test::patience});  // nor is it at the end
     cluster.addSimplexTree(tree);
     auto& trigger = cluster.setTriggerSource<cs::ManualTrigger>(std::chrono::nanoseconds{period});
     auto& script = cluster.addInterface<ScriptInterface>(plan);

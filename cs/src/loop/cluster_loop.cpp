@@ -390,7 +390,7 @@ std::optional<HungHook> ClusterLoop::stop() {
         if (cycle != seen) {
             seen = cycle;
             stood.restart();
-        } else if (stood.look() >= 1500ms) {
+        } else if (stood.look() >= test_.endBudget) {
             ended_.store(Ended::Hung, std::memory_order_release);
             return findHungHook(runner_, agent_);
         }

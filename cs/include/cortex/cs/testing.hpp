@@ -87,6 +87,8 @@ struct TestOptions {
     std::uint32_t chunkSize = 0;  // tasks in a chunk; 0: the schedule decides
     // Runs on each of the loop's threads (0: the loop's own) before its first cycle.
     std::function<void(std::uint32_t thread)> onThreadStart{};
+    // After which stop() ends the process, where no cycle comes or ends meanwhile.
+    std::chrono::milliseconds endBudget{1500};
 };
 
 struct ClusterTesting {
