@@ -45,17 +45,24 @@ void SecurityGuard::on_participant_discovery(Dds*, fastrtps::ParticipantDiscover
 
 void SecurityGuard::onParticipantAuthentication(Dds*,
                                                 fastrtps::ParticipantAuthenticationInfo&& info) {
+    const bool isProven =
+        info.status == fastrtps::ParticipantAuthenticationInfo::AUTHORIZED_PARTICIPANT;
     std::string name;
     {
         const std::lock_guard lock{mutex_};
         if (const auto known = found_.find(info.guid); known != found_.end()) {
             known->second.pending = false;
-            known->second.refused =
-                info.status != fastrtps::ParticipantAuthenticationInfo::AUTHORIZED_PARTICIPANT;
+            known->second.refused = !isProven;
             name = known->second.name;
         }
+        if (isProven) {
+            if (proven_.size() >= mostFound) {
+                std::erase_if(proven_, [&](const Guid& each) { return !found_.contains(each); });
+            }
+            proven_.insert(info.guid);
+        }
     }
-    if (info.status == fastrtps::ParticipantAuthenticationInfo::AUTHORIZED_PARTICIPANT) return;
+    if (isProven) return;
     ++refused_;
     refusals_.add("a participant" + calledItself(name) +
                   " is refused: it has no certificate of our authority");
@@ -76,8 +83,9 @@ std::uint32_t SecurityGuard::pending() {
 bool SecurityGuard::findsUnproven() {
     const std::lock_guard lock{mutex_};
     const auto now = Clock::now();
-    return std::ranges::any_of(found_, [now](const auto& each) {
-        return each.second.pending && now - each.second.since >= longestHandshake;
+    return std::ranges::any_of(found_, [&](const auto& each) {
+        const bool mayKnowUs = proven_.empty() || proven_.contains(each.first);
+        return mayKnowUs && each.second.pending && now - each.second.since >= longestHandshake;
     });
 }
 

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <map>
 #include <mutex>
+#include <set>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -49,7 +50,9 @@ public:
     // The number of participants that were found recently, are not refused, and have not sent a
     // name yet.
     std::uint32_t pending();
-    // Whether one was found that has not proven for 5 s who it is.
+    // Whether one was found that has not proven for 5 s who it is, though it did before: it knows
+    // us and answers no second handshake. A stranger, or one whose first handshake takes long, only
+    // counts as long as nobody has proven anything.
     bool findsUnproven();
 
     // A claim is a name or the id of a name.
@@ -83,6 +86,7 @@ private:
     };
     std::mutex mutex_;
     std::map<Guid, Found> found_;
+    std::set<Guid> proven_;  // also those that have gone, as they may come back
 };
 
 // Asks Fast DDS for authentication, access control and encryption with the files of the folder.
