@@ -10,7 +10,6 @@
 #include "dds/security_guard.hpp"
 #include "wire/cdr.hpp"
 
-#include <list>
 #include <optional>
 #include <span>
 
@@ -63,6 +62,16 @@ struct Secured : testing::Test {
         message.path = path;
         message.command = "poke";
         return message;
+    }
+    // A tool whose commands all fail; each is an event. Then it leaves.
+    void failOften(const std::string& folder, std::size_t count) {
+        Mirror early{"cortex", secured(folder)};
+        ASSERT_TRUE(early.waitUntilComplete(test::patience));
+        const Mirror::Arguments one{{"amount", Value{std::vector{1.0}}}};
+        for (std::size_t i = 0; i < count; ++i) {
+            const CommandAnswer answer = early.call("/cell/arm", "add", one, test::patience);
+            ASSERT_EQ(answer.outcome, Outcome::Failed) << answer.why;
+        }
     }
     // Writes it as often as it takes to be reported.
     bool isRefused(RawWriter& writer, const Command& command, std::string_view event) {
@@ -129,23 +138,33 @@ TEST_F(Secured, CommandOfAReaderIsRefusedAndReported) {
 TEST_F(Secured, ALateToolHearsHundredsOfEventsAtOnce) {
     constexpr std::size_t count = 600;
     const std::string folder = plant.make("station", {"/cell"});
-    {
-        Mirror early{"cortex", secured(folder)};
-        ASSERT_TRUE(early.waitUntilComplete(test::patience));
-        const Mirror::Arguments one{{"amount", Value{std::vector{1.0}}}};
-        for (std::size_t i = 0; i < count; ++i) {  // each that fails is an event
-            ASSERT_EQ(early.call("/cell/arm", "add", one, test::patience).outcome, Outcome::Failed);
-        }
-    }
-    // How they are packed is a matter of luck. All stay: see docs/security.md on who leaves early.
-    std::list<Inbox<AgentEvent>> inboxes;
-    std::list<Mirror> tools;
+    ASSERT_NO_FATAL_FAILURE(failOften(folder, count));
+    // How they are packed is a matter of luck. Each leaves once it has them: all in one process
+    // take turns at one gate, and each newcomer exchanges keys with each that stayed.
     for (int i = 0; i < 6; ++i) {
-        Inbox<AgentEvent>& events = inboxes.emplace_back();
-        tools.emplace_back("cortex", secured(folder)).onEvent(events.push());
+        Inbox<AgentEvent> events;
+        Mirror tool{"cortex", secured(folder)};
+        tool.onEvent(events.push());
 
         ASSERT_TRUE(events.waitFor(count)) << events.elements().size();
     }
+}
+
+// The agent hears nobody any more, and a participant of that name is the one that is asked. It
+// neither answers nor knows the agent, as one whose first handshake takes long: to join anew for it
+// would only cost what was written.
+TEST_F(Secured, AStrangerThatProvesNothingCostsALateToolNoEvents) {
+    constexpr std::size_t count = 100;  // for long enough that the agent hears the tool
+    const std::string folder = plant.make("station", {"/cell"});
+    ASSERT_NO_FATAL_FAILURE(failOften(folder, count));
+    const SecuredPlant other;
+    Mirror stranger{"cortex", secured(other.make("kim"))};
+    ASSERT_TRUE(reports("is refused: it does not prove that it has a certificate"));
+
+    Inbox<AgentEvent> events;
+    Mirror late{"cortex", secured(folder)};
+    late.onEvent(events.push());
+    EXPECT_TRUE(events.waitFor(count)) << events.elements().size();
 }
 
 TEST_F(Secured, WithoutACertificateNothingIsSeenAndTheAgentReportsIt) {
