@@ -63,14 +63,20 @@ struct Secured : testing::Test {
         message.command = "poke";
         return message;
     }
-    // A tool whose commands all fail; each is an event. Then it leaves.
+    // A tool whose commands all fail; each is an event. Then it leaves. Where a busy machine keeps
+    // the agent silent, nobody knows what became of a command: it asks again.
     void failOften(const std::string& folder, std::size_t count) {
         Mirror early{"cortex", secured(folder)};
         ASSERT_TRUE(early.waitUntilComplete(test::patience));
         const Mirror::Arguments one{{"amount", Value{std::vector{1.0}}}};
-        for (std::size_t i = 0; i < count; ++i) {
+        std::size_t failed = 0, unknown = 0;
+        while (failed < count) {
             const CommandAnswer answer = early.call("/cell/arm", "add", one, test::patience);
-            ASSERT_EQ(answer.outcome, Outcome::Failed) << answer.why;
+            const bool isKnown =
+                answer.outcome != Outcome::Unknown && answer.outcome != Outcome::Expired;
+            ++(isKnown ? failed : unknown);
+            ASSERT_TRUE(!isKnown || answer.outcome == Outcome::Failed) << answer.text();
+            ASSERT_LT(unknown, count);
         }
     }
     // Writes it as often as it takes to be reported.
