@@ -23,7 +23,7 @@ LONGEST_DAYS = 30  # that a line may stand there
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 CASE = r"[^\s,:]+\.[^\s,:]+"
 NOT_SHOWN = re.compile(r" *Start +\d+:|\[ (RUN     |      OK) \]")
-IN_VAIN = re.compile(r"\bdid not come in \d+ s\b")  # support/waiting.hpp
+IN_VAIN = re.compile(r"\bdid not come in \d+ s\b|\bis not heard\b")  # so say tests and tools
 PASSED = re.compile(r" Passed +[0-9.]+ sec$")
 
 
@@ -108,7 +108,8 @@ def failed_cases(lines):
 
 
 def judged_what_came(lines):
-    """False where the first failure of a case is that something did not come in time."""
+    """False where the first failure of a case is that something did not come in time, or an agent
+    was not heard."""
     begins = [number for number, line in enumerate(lines) if line.endswith(": Failure")]
     first = lines[begins[0]:(begins + [len(lines)])[1]] if begins else []
     return not any(map(IN_VAIN.search, first))
