@@ -97,11 +97,12 @@ class RunTests(unittest.TestCase):
         self.program("fails", FAILS.replace("what $case saw", "a.cpp:1: Failure\\nthe answer did not "
                                             "come in 60 s\\na.cpp:2: Failure\\n  2\\n  3"))
         self.fails("A.Exact", 1, label="unit-cs-exact")
-        self.add("silent", "sh", "-c", "echo '[ RUN      ] A.Silent'; [ -e spoke ] && echo '[       OK ] "
-                 "A.Silent (0 ms)' && exit; : >spoke; echo 'a.cpp:1: Failure'; echo 'Unknown: the agent is "
-                 "not heard'; echo '[  FAILED  ] A.Silent (0 ms)'; exit 1", label="unit-cs-exact")
-        self.add("hangs", "sh", "-c", "echo '[ RUN      ] A.Hang'; [ -e hung ] && echo '[       OK ] A.Hang (0 ms)' && "
-                 "exit; : >hung; sleep 60", label="unit-cs-exact", timeout=1)
+        self.add("silent", "sh", "-c", "echo '[ RUN      ] A.Silent'; [ -e spoke ] && "
+                 "echo '[       OK ] A.Silent (0 ms)' && exit; : >spoke; echo 'a.cpp:1: Failure'; "
+                 "echo 'Unknown: the agent is not heard'; echo '[  FAILED  ] A.Silent (0 ms)'; exit 1",
+                 label="unit-cs-exact")
+        self.add("hangs", "sh", "-c", "echo '[ RUN      ] A.Hang'; [ -e hung ] && "
+                 "echo '[       OK ] A.Hang (0 ms)' && exit; : >hung; sleep 60", label="unit-cs-exact", timeout=1)
         code, told = self.run_tests()
         self.assertEqual(code, 0, self.output)
         self.assertIn("A.Exact: failed, then passed alone", told["unsteady"])
