@@ -3,6 +3,7 @@
 // on; whoever is killed and started again is taken again, any number of times.
 #include "processes/station.hpp"
 #include "support/own_domain.hpp"
+#include "support/patience.hpp"
 
 #include <algorithm>
 #include <chrono>
