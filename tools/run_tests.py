@@ -107,10 +107,14 @@ def failed_cases(lines):
     return cases
 
 
+def is_failure(line):
+    return line.endswith(": Failure")
+
+
 def judged_what_came(lines):
     """False where the first failure of a case is that something did not come in time, or an agent
     was not heard."""
-    begins = [number for number, line in enumerate(lines) if line.endswith(": Failure")]
+    begins = [number for number, line in enumerate(lines) if is_failure(line)]
     first = lines[begins[0]:(begins + [len(lines)])[1]] if begins else []
     return not any(map(IN_VAIN.search, first))
 
@@ -260,11 +264,13 @@ def count_passed(printed, failed):
 
 
 def exact_cases(exact, cases, log):
-    """Those of these processes' cases that judged what came, and so are not tried again."""
+    """Those of these processes' cases that judged what came, and so are not tried again: all but one
+    that waited in vain, or had begun and judged nothing when the limit of ctest ended its process."""
     ended = timed_out(log)
     return [case for process in cases if process in exact
             for number, (case, lines) in enumerate(reversed(cases[process].items()))
-            if judged_what_came(lines) and not (number == 0 and process in ended)]
+            if judged_what_came(lines) and
+            not (number == 0 and process in ended and not any(map(is_failure, lines)))]
 
 
 def judge(arguments, folder, logs, reports):

@@ -115,10 +115,13 @@ class RunTests(unittest.TestCase):
         self.fails("A.Exact", 1, label="unit-cs-exact")
         self.add("hangs", "sh", "-c", "echo '[ RUN      ] A.Wrong'; echo '[  FAILED  ] A.Wrong (0 ms)'; "
                  "echo '[ RUN      ] A.Hang'; sleep 60", label="unit-cs-exact", timeout=1)
+        self.add("differs", "sh", "-c", "echo '[ RUN      ] A.Differs'; echo 'a.cpp:1: Failure'; "
+                 "sleep 60", label="unit-cs-exact", timeout=1)
         code, told = self.run_tests()
         self.assertEqual(code, 1)
         self.assertIn("A.Exact is exact", told["red"])
         self.assertIn("A.Wrong is exact", told["red"])
+        self.assertIn("A.Differs is exact", told["red"])
         self.assertNotIn("A.Hang", told["red"])
 
     def test_an_exact_one_that_judges_at_its_second_try_is_red(self):
