@@ -126,7 +126,7 @@ Observation HandMadeLoop::run() {
                         },
                         this, options};
     for (std::int64_t step = 1; step <= steps; ++step) {
-        tick_ = {step, (step - 1) * period, period, 0};
+        tick_ = {step, (step - 1) * period, period, period, 0};
         agent_->beginCycle(tick_);
         runner_->beginCycle(tick_);
         pool.cycle();

@@ -24,6 +24,7 @@ void Reference::runTask(int simplex) {
     const Tick tick{cycle_, now_, passed, std::min(passed, 3 * period * task.every), 0};
     task.lastRun = task.now = now_;
     task.qualitySet = false;
+    noteSilence(simplex);
     SlotState state{cycle_, now_, noSimplex, Quality::Good};
     try {
         transition(simplex);
@@ -207,7 +208,6 @@ SlotState Reference::readInputs(int simplex, std::int64_t passed) {
     RefTask& task = *at(simplex).task;
     SlotState sum{cycle_, now_, noSimplex, Quality::Good};
     bool safe = false;
-    noteSilence(simplex);
     for (Link* link : task.inputs) {
         const RefSimplex& target = at(link->target);
         const bool ages = target.task != nullptr || !target.writers.empty();
