@@ -185,6 +185,22 @@ TEST(Overflow, ALoopThatMissesMoreThanATenthOfItsTicksForTwoSecondsIsOverloaded)
     EXPECT_FALSE(cluster.hasEvent("1000 cycles a second instead")) << "it is what is wanted";
 }
 
+TEST(Overflow, AnOverloadOfHalfTheMotionIsToldAnew) {
+    ProbeCluster cluster;
+    cluster.probe("/a");
+    cluster.start();
+    stepLate(cluster, 400, 9);
+    EXPECT_FALSE(cluster.hasEvent("overloaded: 50 cycles"));
+    stepLate(cluster, 120, 39);
+    EXPECT_TRUE(cluster.hasEvent("overloaded: 25 cycles a second instead of 1000; all motion has "
+                                 "8 % of its speed") ||
+                cluster.hasEvent("overloaded: 25 cycles a second instead of 1000; all motion has "
+                                 "7 % of its speed"));
+    const auto told = cluster.events().size();
+    stepLate(cluster, 120, 39);
+    EXPECT_EQ(cluster.events().size(), told) << "it is as it was";
+}
+
 // A count that began late was short by the clock, and its cycles were no more for that.
 TEST(Overflow, ALoopThatIsOverloadedNeverTellsOfMoreCyclesThanItWasToRun) {
     constexpr std::int64_t period = 200'000'000;  // 5 Hz

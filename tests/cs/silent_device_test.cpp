@@ -19,8 +19,8 @@ struct SilentDevice {
     Probe& controller = cluster.probe("/controller");
     Probe& device = cluster.probe("/device", "UnlinkedDrive");
     bool isSilent = false, isLostWhenSilent = true;
-    int lost = 0;                // runs of the device in which its demand was lost
-    std::int64_t measured = -1;  // ns
+    int lost = 0;                          // runs of the device in which its demand was lost
+    std::int64_t measured = -1, late = 0;  // ns; late: when it tells what it measured
 
     explicit SilentDevice(int every = 1) {
         cluster.tree.add("/o", "Observation");
@@ -31,7 +31,7 @@ struct SilentDevice {
         if (every > 1) controller.runEvery(every, 0);
         device.onLoopStart = [this](Probe& self, const Tick& tick) {
             if (self.inputLost()) ++lost;
-            if (!isSilent) measured = tick.nominalTime;
+            if (!isSilent) measured = tick.nominalTime - late;
             const bool isAway = isSilent && isLostWhenSilent;
             self.setQuality(isAway ? Quality::Lost : Quality::Good, measured);
         };
@@ -61,6 +61,22 @@ TEST(SilentDevice, HasItsDemandsAllTheTimeAndAfterwards) {
             }
             EXPECT_EQ(plant.lost, 0) << every << isLostWhenSilent;
         }
+    }
+}
+
+// As where the loop stood still, too, and looks at it later.
+TEST(SilentDevice, HasItsDemandsAlsoWhereItTellsLateWhatItMeasuredFirst) {
+    for (const int every : {1, 10}) {
+        SilentDevice plant{every};
+        plant.start();
+        for (const int late : {10, 30, 45}) {
+            plant.beSilentFor(100);
+            plant.late = late * 1'000'000;
+            plant.cluster.step();
+            plant.late = 0;
+            plant.cluster.step(200);
+        }
+        EXPECT_EQ(plant.lost, 0) << every;
     }
 }
 

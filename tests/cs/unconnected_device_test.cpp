@@ -52,7 +52,7 @@ public:
             };
         };
     }
-    // The controller writes these from then on; a velocity only where it is given.
+    // The controller writes these from then on.
     void start() {
         writer.onPopulate = [this](Probe& self) {
             const OutputSimplex demand = self.output(isArray_ ? "axis" : "demand");
@@ -65,9 +65,11 @@ public:
                 };
             } else {
                 auto first = demand.data<double>("position"),
+                     second = demand.data<double>("velocity"),
                      third = demand.data<double>("current");
-                self.onActive = [this, first, third](Probe&, const Tick&) mutable {
+                self.onActive = [this, first, second, third](Probe&, const Tick&) mutable {
                     first = position;
+                    second = velocity;
                     third = current;
                 };
             }
@@ -193,6 +195,37 @@ TEST(UnconnectedDevices, TellTheStepOfWhatHasNoRate) {
     EXPECT_EQ(
         plant.count("/writer: current of /d went from 3 to 8.5 while /drive was not connected"), 1);
     EXPECT_EQ(plant.count("was not connected"), 1) << "the first time nothing had changed";
+}
+
+TEST(UnconnectedDevices, TellTheStepThatAShutdownMakes) {
+    TakenDemand plant;
+    plant.velocity = 1.5;
+    plant.start();
+    plant.cluster.step(5);
+    plant.connected = false;
+    plant.cluster.step(5);
+    plant.cluster.call("/writer", "shutdown");
+    plant.cluster.step(5);
+    ASSERT_EQ(plant.get("velocity"), 0) << "its safe value";
+    plant.connected = true;
+    plant.cluster.step(5);
+    EXPECT_EQ(plant.count("velocity of /d went from 1.5 to 0 rad/s while /drive was not connected"),
+              1);
+}
+
+TEST(UnconnectedDevices, AreNamedAtAStopForWhatHasNoRate) {
+    for (const bool isConnected : {true, false}) {
+        TakenDemand plant;
+        plant.velocity = 1.5;
+        plant.start();
+        plant.cluster.step(5);
+        plant.connected = isConnected;
+        plant.cluster.step(2);
+        EXPECT_TRUE(plant.cluster.cluster->stop());
+        EXPECT_EQ(plant.cluster.cluster->notShutDown(), std::vector<std::string>{});
+        EXPECT_EQ(plant.count("/d: its safe values were not sent: /drive is not connected"),
+                  isConnected ? 0 : 1);
+    }
 }
 
 TEST(UnconnectedDevices, AreNotWaitedForAtAStop) {

@@ -200,6 +200,10 @@ private:
     } group_;
     Observation observation_;
 
+    void postLimits(int simplex, const std::vector<std::string>& texts) {
+        for (const std::string& text : texts)
+            post(simplex, Severity::Warning, EventKind::Limit, text);
+    }
     void tell(int simplex, const std::string& text) {
         if (group_.asked.contains(simplex)) group_.heard[simplex] = text;
     }

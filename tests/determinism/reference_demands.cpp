@@ -338,11 +338,10 @@ void Reference::limitOutputs(int simplex, double elapsed) {
         const LimitFinding finding = limit(demand, elapsed);
         output->notFinite = finding.notFinite;
         again = again || finding.notFinite;
-        if (output->standsSafe) continue;  // on its way
+        if (!output->standsSafe) postLimits(simplex, finding.texts);  // else it is on its way
+        postLimits(simplex, finding.steps);
+        if (output->standsSafe) continue;
         if (finding.limited) ++limits_;
-        for (const std::string& text : finding.texts) {
-            post(simplex, Severity::Warning, EventKind::Limit, text);
-        }
         if (!finding.faults) continue;
         fault(simplex, finding.notFinite ? -3 : -4,
               finding.item->name + " of " + demand.path +
@@ -405,14 +404,13 @@ void Reference::arbitrate(int simplex) {
     const bool reports = !chosen.standsSafe;
     if (reports) {
         if (finding.limited) ++limits_;
-        for (const std::string& text : finding.texts) {
-            post(simplex, Severity::Warning, EventKind::Limit, text);
-        }
+        postLimits(simplex, finding.texts);
         if (finding.faults) {
             chosen.refused = finding.item;
             chosen.refusedNotFinite = finding.notFinite;
         }
     }
+    postLimits(simplex, finding.steps);
     if (finding.notFinite || (finding.faults && reports)) {
         latchSafe(chosen);
         slowDown(chosen, elapsed);

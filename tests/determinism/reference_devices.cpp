@@ -63,7 +63,7 @@ void Reference::tellSteps(RefSimplex& demand, LimitFinding& finding) {
         for (std::size_t i = item.first; i < item.first + item.type->length; ++i) {
             const double before = demand.whenLost.floats[i], now = demand.live.floats[i];
             if (before == now) continue;
-            finding.texts.push_back(item.type->name + " of " + demand.path + " went from " +
+            finding.steps.push_back(item.type->name + " of " + demand.path + " went from " +
                                     inText(before, now) + " to " + inText(now, before) +
                                     (item.type->unit.empty() ? "" : " " + item.type->unit) +
                                     " while " + at(demand.devices.front()).path +

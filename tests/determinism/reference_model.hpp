@@ -161,7 +161,7 @@ struct RefTask {
     bool toldInVain = false;  // in this stay
     Quality quality = Quality::Good;
     std::int64_t measuredAt = 0, faultCode = 0;
-    std::int64_t silentSince = -1, silentFor = 0;  // ns
+    std::map<std::int64_t, std::int64_t> silences;  // ns; by the stamp until which they count
     std::string text;
     bool pending[4]{}, pendingLater[4]{};  // by LifeCycle
     int manager = -1;
@@ -203,6 +203,7 @@ struct LimitFinding {
     bool limited = false, notFinite = false, faults = false;
     const DataItem* item = nullptr;  // that faults
     std::vector<std::string> texts;  // of items newly limited
+    std::vector<std::string> steps;  // while no device was connected
 };
 
 inline bool resting(State state) { return state == State::Standby || state == State::Fault; }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <ranges>
 #include <utility>
 
 namespace cortex::determinism {
@@ -194,13 +195,17 @@ void Reference::noteSilence(int simplex) {
     const std::int64_t measured = at(simplex).live.state.time;
     const std::int64_t length = now_ - measured - 2 * period * task.every;
     if (!at(simplex).type->measures || length <= 0) return;
-    task.silentSince = measured + period;
-    task.silentFor = length;
+    task.silences[measured + period] = length;
 }
 
 // What followed from its measurements before that is as much younger.
 std::int64_t Reference::ageOf(const SlotState& source, const RefTask& reader) const {
-    return now_ - source.time - (source.time <= reader.silentSince ? reader.silentFor : 0);
+    std::int64_t age = now_ - source.time;
+    int newest = 2;
+    for (const auto& [since, length] : reader.silences | std::views::reverse) {
+        if (newest-- > 0 && source.time <= since) age -= length;
+    }
+    return age;
 }
 
 // The worst quality with its first cause, the oldest stamp; what a lost input leads to.

@@ -149,6 +149,34 @@ TEST(LostDemand, LetsAnAxisStopWithinItsAcceleration) {
                 top * top / braking / 2 + top * braking / jolt / 2, 0.01);
 }
 
+TEST(LostDemand, LetsAnAxisThatHasNearlyStoppedNotTakeOffAgain) {
+    constexpr double cycleTime = 1e-3, frozenFor = 0.05;
+    Rig rig;
+    for (const char* each : {"/demand", "/axis"}) rig.add(each, "LimitedAxis");
+    rig.add("/drive", "SimulatedAxis", {{"demand", "/demand"}, {"observation", "/axis"}});
+    rig.start();
+    rig.startUp();
+    Simplex& demand = rig.tree().at("/demand");
+    demand.data<double>("velocity") = 1;
+    for (int cycle = 0; cycle < 500; ++cycle) {
+        demand.data<double>("position") = cycle * cycleTime;
+        rig.step();
+    }
+    ASSERT_NEAR(rig.get<double>("/axis", "velocity"), 1, 0.05);
+    rig.step(std::lround(frozenFor / cycleTime));  // as a cut link leaves it
+    double before = std::abs(rig.get<double>("/axis", "velocity"));
+    ASSERT_LT(before, 0.3);
+
+    demand.slot().quality = Quality::Lost;
+    for (int cycle = 0; cycle < 300; ++cycle) {
+        rig.step();
+        const double now = std::abs(rig.get<double>("/axis", "velocity"));
+        EXPECT_LE(now, before) << cycle;
+        before = now;
+    }
+    EXPECT_NEAR(before, 0, 1e-4);
+}
+
 TEST(LostDemand, IsFollowedAgainByEachClassOnlyOnceItRestsWhereTheAxisIs) {
     int tried = 0;
     for (const Recipe& recipe : recipes()) {

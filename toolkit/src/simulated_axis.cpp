@@ -59,8 +59,7 @@ bool SimulatedAxis::stateStartingUp(const Tick& tick) {
 void SimulatedAxis::chooseTarget(double seconds) {
     const bool isActive = state() == State::Active;
     const bool stands = std::abs(velocity_) < standstill;
-    if (isActive && inputLost() && targets_.follows())
-        stop_ = {targets_.target().position, targets_.target().velocity, 0};
+    if (isActive && inputLost() && targets_.follows()) stop_ = {position_, velocity_, 0};
     stops_ = isActive && ((inputLost() && targets_.follows()) || (stops_ && !stands));
     if (stops_) {
         const auto way = mechanics::planVelocity(stop_, 0, limits_->motion());

@@ -25,8 +25,12 @@ bool PaceJudge::add(const Tick& tick, std::int64_t now) {
         motion_ = static_cast<double>(elapsed_) / static_cast<double>(counted);
         rate_ = static_cast<double>(cycles_) * 1e9 / static_cast<double>(passed);
         const bool late = 10 * cycles_ < 9 * due;
-        changed_ = late == before_ && late != overloaded_;
-        if (changed_) overloaded_ = late;
+        const bool worse = late && motion_ < told_ / 2;
+        changed_ = late == before_ && (late != overloaded_ || worse);
+        if (changed_) {
+            overloaded_ = late;
+            told_ = motion_;
+        }
         before_ = late;
     }
     since_ = tick.nominalTime;

@@ -10,7 +10,7 @@ namespace cortex::cs {
 
 // Counts the cycles of each second (of ten periods where that is longer). A loop that ran fewer
 // than nine tenths of those that were due, twice in a row, is overloaded, until it runs more twice
-// in a row: one long cycle is no overload. Loop thread.
+// in a row: one long cycle is no overload. While it is, half the motion is a change. Loop thread.
 class PaceJudge {
 public:
     explicit PaceJudge(std::int64_t period);  // ns
@@ -26,7 +26,7 @@ private:
     std::int64_t period_, window_;
     std::int64_t since_ = -1, sinceNow_ = 0;  // the beginning of this count
     std::int64_t cycles_ = 0, elapsed_ = 0;
-    double rate_ = 0, motion_ = 1;
+    double rate_ = 0, motion_ = 1, told_ = 1;  // told_: the motion at the last change
     bool before_ = false, overloaded_ = false, changed_ = false;
 };
 

@@ -144,7 +144,7 @@ void DemandLimits::setTakers(std::vector<DemandTaker> takers, bool& taken) {
     takenMemory_.resize(size);
     std::byte* next = takenMemory_.data();
     for (Item& item : items_) {
-        if (item.item->kind != Kind::Float || item.hasRate || item.derives) continue;
+        if (item.item->kind == Kind::String || item.hasRate || item.derives) continue;
         item.taken = next;
         next += alignedSize(*item.item);
     }
@@ -195,15 +195,20 @@ void DemandLimits::devicesChanged() {
     stood_ = stands();
     for (const Item& item : items_) {
         if (item.taken == nullptr) continue;
+        if (stood_) std::memcpy(item.taken, item.live, item.size);
+        if (stood_ || !wasTaken_ || item.item->kind != Kind::Float) continue;
         const auto* now = reinterpret_cast<const double*>(item.live);
         const auto* end = now + item.item->length;
         const auto [is, was] = std::mismatch(now, end, reinterpret_cast<double*>(item.taken));
-        if (stood_)
-            std::memcpy(item.taken, item.live, item.size);
-        else if (wasTaken_ && is != end)
-            beginnings_.push_back({item.item, *was, *is, false, false, false, true});
+        if (is != end) beginnings_.push_back({item.item, *was, *is, false, false, false, true});
     }
     wasTaken_ = wasTaken_ || !stood_;
+}
+
+bool DemandLimits::changedUnseen() const {
+    return stands() && wasTaken_ && std::ranges::any_of(items_, [](const Item& each) {
+               return each.taken != nullptr && std::memcmp(each.taken, each.live, each.size) != 0;
+           });
 }
 
 void DemandLimits::stand(double elapsed) {

@@ -65,6 +65,8 @@ public:
     // By the last apply(): whether it stands, as none of the devices that read it is connected.
     bool stands() const { return taken_ != nullptr && !*taken_; }
     std::uint32_t taker() const { return takers_.front().simplex; }  // the first of them
+    // Whether it stands, and what has no rate is not what the last device left. Between cycles.
+    bool changedUnseen() const;
     // Limits the live values against those last accepted. May be called again with other values
     // before accept(): a demand still moves no further than once.
     LimitResult apply(double elapsedSeconds) CORTEX_REALTIME;
@@ -87,7 +89,7 @@ private:
         const Item* base;  // of one that is safe="stop": the item whose derivative it is
         bool hasRate = false, derives = false;  // derives: of an item with a rate
         double quiet = 0;            // seconds of the episode in which nothing was limited
-        std::byte* taken = nullptr;  // a number without a rate, as the last device left it
+        std::byte* taken = nullptr;  // what has no rate, as the last device left it
     };
     static void follow(Item& item, bool limitedNow, double elapsed) CORTEX_REALTIME;
     static bool standsAtItsEnd(const Item& item, std::uint32_t element) CORTEX_REALTIME;

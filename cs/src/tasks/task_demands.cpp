@@ -35,9 +35,9 @@ bool TaskDemands::limit(Task& task, const Tick& tick) {
             output.safe->write();
             again = true;
         }
-        if (output.standsSafe) continue;  // on its way, which is no event
+        reportLimits(*output.limits, task.index, output.standsSafe, *simplex.thread_->loop);
+        if (output.standsSafe) continue;
         if (result.limited) ++simplex.thread_->limits;
-        reportLimits(*output.limits, task.index, *simplex.thread_->loop);
         if (result.faulting == nullptr) continue;
         simplex.enterFault(result.notFinite ? DemandNotFinite : DemandOutOfRange,
                            refusal(result, output.target).view());
@@ -105,7 +105,8 @@ std::vector<TaskDemands::OnTheWay> TaskDemands::onTheWay() const {
     std::vector<OnTheWay> all;
     eachThatGoesOut(set_, [&all](const TaskOutput& output, const DemandLimits& limits) {
         const auto way = output.safe->onTheWay();
-        if (way) all.push_back({output.target, *way, limits.stands() ? limits.taker() : noSimplex});
+        const std::uint32_t away = limits.stands() ? limits.taker() : noSimplex;
+        if (way || limits.changedUnseen()) all.push_back({output.target, way, away});
     });
     std::ranges::sort(all, {}, &OnTheWay::simplex);
     return all;
@@ -126,10 +127,12 @@ EventText TaskDemands::refusal(const LimitResult& result, std::uint32_t target) 
                 << (result.notFinite ? " was not a number" : " was out of range");
 }
 
-// One event for each item whose episode begins.
-void TaskDemands::reportLimits(const DemandLimits& limits, std::uint32_t simplex,
+// One event for each item whose episode begins. A safe value that is limited is on its way, which
+// is none; a step that nobody took is one all the same.
+void TaskDemands::reportLimits(const DemandLimits& limits, std::uint32_t simplex, bool isSafe,
                                LoopThread& thread) {
     for (const DemandLimits::Beginning& each : limits.beginnings()) {
+        if (isSafe && !each.unseen) continue;
         EventText text{each.item->name};
         text << " of " << set_.structure.simplexes[limits.simplex()].path;
         if (each.unseen) {
@@ -196,7 +199,7 @@ void TaskDemands::arbitrate(Arbiter& arbiter, const Tick& tick, TaskThread& thre
     // Events here are the shared simplex's: its writer's own may come from another thread.
     const bool demands = !chosen.output->standsSafe;
     if (demands && result.limited) ++thread.limits;
-    if (demands) reportLimits(*arbiter.limits, arbiter.target, *thread.loop);
+    reportLimits(*arbiter.limits, arbiter.target, !demands, *thread.loop);
     const bool faults = demands && result.faulting != nullptr;
     if (faults) {
         chosen.output->refused = result;

@@ -48,11 +48,12 @@ public:
         if (bound || task.demands == Task::Demands::Bound) settle(task, tick, bound);
     }
 
-    // Safe values that have not gone out yet, as their rates do not allow it. Between cycles.
+    // Safe values that have not gone out yet, as their rates do not allow it, or no device took
+    // them. Between cycles.
     bool anyOnTheWay() const CORTEX_REALTIME;
     struct OnTheWay {
         std::uint32_t simplex;
-        SafeDemands::Way way;
+        std::optional<SafeDemands::Way> way;  // none: what has no rate, and was not taken
         std::uint32_t unconnected;  // the device that would take it; noSimplex: it is taken
     };
     std::vector<OnTheWay> onTheWay() const;
@@ -73,8 +74,8 @@ private:
     void settle(Task& task, const Tick& tick, bool bound) CORTEX_REALTIME;
     void tellInVain(Task& task, const TaskOutput& output, std::string_view who) CORTEX_REALTIME;
     EventText refusal(const LimitResult& result, std::uint32_t target) const CORTEX_REALTIME;
-    void reportLimits(const DemandLimits& limits, std::uint32_t simplex, LoopThread& thread)
-        CORTEX_REALTIME;
+    void reportLimits(const DemandLimits& limits, std::uint32_t simplex, bool isSafe,
+                      LoopThread& thread) CORTEX_REALTIME;
 
     TaskSet& set_;
 };

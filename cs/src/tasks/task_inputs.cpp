@@ -24,10 +24,12 @@ void merge(SlotState& sum, const SlotState& state, bool ages) {
 
 // ns. What comes over a network ages while this cycle was late to wake up, too. What followed from
 // the last measurement of a device before it was silent cannot be younger than that.
-std::int64_t ageOf(const TaskInput& input, const Tick& tick, const Silence& silence) {
+std::int64_t ageOf(const TaskInput& input, const Tick& tick, const TaskDetails* device) {
     const std::int64_t late = input.ownerPeriod != nullptr ? tick.lateness : 0;
-    const std::int64_t silent = input.state->time <= silence.since ? silence.length : 0;
-    return tick.nominalTime + late - input.state->time - silent;
+    const std::int64_t stamp = input.state->time;
+    const std::int64_t age = tick.nominalTime + late - stamp;
+    return device == nullptr ? age
+                             : age - device->silence.of(stamp) - device->formerSilence.of(stamp);
 }
 
 // In tenths, rounded up.
@@ -81,7 +83,10 @@ void TaskInputs::noteSilence(const Task& task, const Tick& tick) {
     const std::int64_t measured = set_.states[task.index].time;
     const std::int64_t usual = 2 * set_.period * std::int64_t{details.every};
     const std::int64_t length = tick.nominalTime - measured - usual;
-    if (length > 0) details.silence = {measured + set_.period, length};
+    if (length <= 0) return;
+    const std::int64_t since = measured + set_.period;
+    if (details.silence.since != since) details.formerSilence = details.silence;
+    details.silence = {since, length};
 }
 
 SlotState TaskInputs::read(Task& task, const Tick& tick) {
@@ -89,12 +94,12 @@ SlotState TaskInputs::read(Task& task, const Tick& tick) {
     bool anyLost = false, safe = false;
     const bool stood = set_.standstill.nominalTime > tick.nominalTime - tick.passed;
     const std::int64_t stoodStill = stood ? set_.standstill.length : 0;
-    const Silence silence = task.measures ? set_.detailsOf(task).silence : Silence{};
+    const TaskDetails* const device = task.measures ? &set_.detailsOf(task) : nullptr;
     for (TaskInput& input : set_.inputsOf(task)) {
         if (input.ownerPeriod != nullptr) {
             input.maxAge = std::max(input.maxAge, 3 * *input.ownerPeriod);
         }
-        const Seen now{input.ages ? ageOf(input, tick, silence) : 0, stoodStill,
+        const Seen now{input.ages ? ageOf(input, tick, device) : 0, stoodStill,
                        movedOnUnseen(input, stoodStill)};
         if (now.age <= input.maxAge && !now.isUnseen && !input.lost && input.held == nullptr &&
             input.state->quality == Quality::Good) {

@@ -105,6 +105,8 @@ struct TaskRuns {
 struct Silence {
     std::int64_t since = -1;  // stamp of what it measured last before it; -1: none
     std::int64_t length = 0;  // ns
+
+    std::int64_t of(std::int64_t stamp) const { return stamp <= since ? length : 0; }
 };
 
 // What it looks at when something happens, or where a task does not run in every cycle.
@@ -114,7 +116,9 @@ struct TaskDetails {
     std::uint32_t every = 1, phase = 0;
     std::int64_t lastRun = 0;
     std::int64_t stateSince = 0;
-    Silence silence;          // of a task that measures
+    // Of a task that measures: the last one, and the one before, as what follows from it may be
+    // under way still.
+    Silence silence, formerSilence;
     bool toldInVain = false;  // in this stay: that what its hooks write does not go out
     Data<std::int64_t> state, faultCode;
     Data<std::string_view> faultText;
