@@ -185,8 +185,9 @@ LimitResult DemandLimits::apply(double elapsedSeconds) {
         if (result.notFinite) return result;
         if (limitedNow || item.inEpisode) follow(item, limitedNow, elapsedSeconds);
     }
-    if (stands()) stand(elapsedSeconds);
-    if (stands() != stood_) devicesChanged();
+    if (taken_ == nullptr) return result;
+    if (!*taken_) stand(elapsedSeconds);
+    if (*taken_ == stood_) devicesChanged();
     return result;
 }
 
