@@ -110,6 +110,25 @@ TEST(SilentDevice, LosesADemandThatGrowsOldByItselfMeanwhileOrAfterwards) {
     EXPECT_GT(plant.lost, 0) << "it is younger than what was measured last";
 }
 
+// The time for which it is silent counts once, also where it tells late what it measured in it.
+TEST(SilentDevice, MakesADemandNoYoungerByTellingLate) {
+    SilentDevice plant;
+    plant.start();
+    std::int64_t since = -1;
+    plant.controller.onActive = [&since](Probe& self, const Tick& tick) {
+        if (since < 0) since = tick.nominalTime;
+        self.setQuality(Quality::Good, since);
+    };
+    plant.cluster.step(20);
+    plant.beSilentFor(500);
+    plant.late = 45'000'000;
+    plant.cluster.step();
+    plant.late = 0;
+    EXPECT_EQ(plant.lost, 0) << "it was 20 ms old";
+    plant.cluster.step(40);
+    EXPECT_GT(plant.lost, 0);
+}
+
 TEST(SilentDevice, LosesADemandThatItsControllerCallsLost) {
     SilentDevice plant;
     plant.start();

@@ -15,6 +15,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace cortex::determinism {
@@ -161,7 +162,7 @@ struct RefTask {
     bool toldInVain = false;  // in this stay
     Quality quality = Quality::Good;
     std::int64_t measuredAt = 0, faultCode = 0;
-    std::map<std::int64_t, std::int64_t> silences;  // ns; by the stamp until which they count
+    std::vector<std::pair<std::int64_t, std::int64_t>> silences;  // ns; until which stamp, length
     std::string text;
     bool pending[4]{}, pendingLater[4]{};  // by LifeCycle
     int manager = -1;

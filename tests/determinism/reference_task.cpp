@@ -195,15 +195,21 @@ void Reference::noteSilence(int simplex) {
     const std::int64_t measured = at(simplex).live.state.time;
     const std::int64_t length = now_ - measured - 2 * period * task.every;
     if (!at(simplex).type->measures || length <= 0) return;
-    task.silences[measured + period] = length;
+    const bool goesOn = !task.silences.empty() && task.silences.back().first == measured + period;
+    if (!goesOn) task.silences.emplace_back();
+    task.silences.back() = {measured + period, length};
 }
 
 // What followed from its measurements before that is as much younger.
 std::int64_t Reference::ageOf(const SlotState& source, const RefTask& reader) const {
     std::int64_t age = now_ - source.time;
+    std::int64_t covered = now_;  // from here on by the later one
     int newest = 2;
     for (const auto& [since, length] : reader.silences | std::views::reverse) {
-        if (newest-- > 0 && source.time <= since) age -= length;
+        if (newest-- == 0) break;
+        const std::int64_t end = std::min(since + length, std::max(covered, since));
+        if (source.time <= since) age -= end - since;
+        covered = since;
     }
     return age;
 }

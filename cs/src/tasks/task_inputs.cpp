@@ -85,7 +85,11 @@ void TaskInputs::noteSilence(const Task& task, const Tick& tick) {
     const std::int64_t length = tick.nominalTime - measured - usual;
     if (length <= 0) return;
     const std::int64_t since = measured + set_.period;
-    if (details.silence.since != since) details.formerSilence = details.silence;
+    if (details.silence.since != since) {
+        Silence& former = details.formerSilence = details.silence;
+        const std::int64_t before = std::max<std::int64_t>(since - former.since, 0);
+        former.length = std::min(former.length, before);  // the new one covers the rest
+    }
     details.silence = {since, length};
 }
 
