@@ -87,7 +87,7 @@ struct Encoder {
         if constexpr (sizeof(T) == 4)
             split(static_cast<std::uint32_t>(field), order, image.subspan(at).template first<2>());
         else
-            image[at] = static_cast<std::uint16_t>(field);  // with its sign
+            image[at] = static_cast<std::uint16_t>(field);  // NOLINT: with its sign
     }
     template <class Octet>
     void operator()(std::size_t at, const Pair<Octet>& field) const {

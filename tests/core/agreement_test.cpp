@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <map>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -266,6 +268,20 @@ TEST(ShippedOntology, HasTheFinalTypesOfTheFramework) {
     std::ofstream{written} << now;
     EXPECT_EQ(now, test::textOf(CORTEX_SOURCE_DIR "/tests/data/framework-types.txt"))
         << "give a new function a type of its own; see docs/architecture.md";
+}
+
+TEST(ShippedOntology, SaysOfEachHaltQuickStopAndBrakeThatItStops) {
+    const TypeModel types = TypeModel::load(CORTEX_SOURCE_DIR "/ontology/cortex-morphology.xml");
+    std::map<std::string, int> found;
+    for (const auto& [name, type] : types.types()) {
+        for (const char* each : {"halt", "quickStop", "brake"}) {
+            const auto* command = type.findCommand(each);
+            if (command == nullptr) continue;
+            ++found[each];
+            EXPECT_TRUE(command->stops) << name << '.' << each;
+        }
+    }
+    EXPECT_EQ(found.size(), 3U);
 }
 
 TEST(HashOf, IsTheFirstHalfOfSha256) {

@@ -42,6 +42,13 @@ struct SilentDevice {
         cluster.step(300);
         lost = 0;
     }
+    // From the next cycle on, the demand grows old by itself.
+    void letTheDemandAge() {
+        controller.onActive = [since = std::int64_t{-1}](Probe& self, const Tick& tick) mutable {
+            if (since < 0) since = tick.nominalTime;
+            self.setQuality(Quality::Good, since);
+        };
+    }
     void beSilentFor(int cycles) {
         isSilent = true;
         cluster.step(cycles);
@@ -83,11 +90,7 @@ TEST(SilentDevice, HasItsDemandsAlsoWhereItTellsLateWhatItMeasuredFirst) {
 TEST(SilentDevice, LosesADemandThatGrowsOldByItselfMeanwhileOrAfterwards) {
     SilentDevice plant;
     plant.start();
-    std::int64_t since = -1;
-    plant.controller.onActive = [&since](Probe& self, const Tick& tick) {
-        if (since < 0) since = tick.nominalTime;
-        self.setQuality(Quality::Good, since);
-    };
+    plant.letTheDemandAge();
     plant.cluster.step(20);
     plant.beSilentFor(500);
     EXPECT_EQ(plant.lost, 0) << "it was 20 ms old";
@@ -99,11 +102,7 @@ TEST(SilentDevice, LosesADemandThatGrowsOldByItselfMeanwhileOrAfterwards) {
     plant.lost = 0;
     plant.isSilent = true;
     plant.cluster.step(10);
-    since = -1;
-    plant.controller.onActive = [&since](Probe& self, const Tick& tick) {
-        if (since < 0) since = tick.nominalTime;
-        self.setQuality(Quality::Good, since);
-    };
+    plant.letTheDemandAge();
     plant.cluster.step(40);
     EXPECT_EQ(plant.lost, 0);
     plant.cluster.step(40);
@@ -114,11 +113,7 @@ TEST(SilentDevice, LosesADemandThatGrowsOldByItselfMeanwhileOrAfterwards) {
 TEST(SilentDevice, MakesADemandNoYoungerByTellingLate) {
     SilentDevice plant;
     plant.start();
-    std::int64_t since = -1;
-    plant.controller.onActive = [&since](Probe& self, const Tick& tick) {
-        if (since < 0) since = tick.nominalTime;
-        self.setQuality(Quality::Good, since);
-    };
+    plant.letTheDemandAge();
     plant.cluster.step(20);
     plant.beSilentFor(500);
     plant.late = 45'000'000;

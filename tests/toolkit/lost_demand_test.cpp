@@ -119,14 +119,20 @@ bool standsUntilItRestsWhereTheAxisIs(const Recipe& recipe) {
     return true;
 }
 
+// A SimulatedAxis that is Active, with its demand and what it observes.
+struct SimulatedDrive : Rig {
+    SimulatedDrive() {
+        for (const char* each : {"/demand", "/axis"}) add(each, "LimitedAxis");
+        add("/drive", "SimulatedAxis", {{"demand", "/demand"}, {"observation", "/axis"}});
+        start();
+        startUp();
+    }
+};
+
 TEST(LostDemand, LetsAnAxisStopWithinItsAcceleration) {
     constexpr double top = 1, cycleTime = 1e-3;
     constexpr double braking = 10, jolt = 100;  // as LimitedAxis has them
-    Rig rig;
-    for (const char* each : {"/demand", "/axis"}) rig.add(each, "LimitedAxis");
-    rig.add("/drive", "SimulatedAxis", {{"demand", "/demand"}, {"observation", "/axis"}});
-    rig.start();
-    rig.startUp();
+    SimulatedDrive rig;
     Simplex& demand = rig.tree().at("/demand");
     for (double now = 0; now < top; now += braking * cycleTime / 2) {
         demand.data<double>("velocity") = now;
@@ -151,11 +157,7 @@ TEST(LostDemand, LetsAnAxisStopWithinItsAcceleration) {
 
 TEST(LostDemand, LetsAnAxisThatHasNearlyStoppedNotTakeOffAgain) {
     constexpr double cycleTime = 1e-3, frozenFor = 0.05;
-    Rig rig;
-    for (const char* each : {"/demand", "/axis"}) rig.add(each, "LimitedAxis");
-    rig.add("/drive", "SimulatedAxis", {{"demand", "/demand"}, {"observation", "/axis"}});
-    rig.start();
-    rig.startUp();
+    SimulatedDrive rig;
     Simplex& demand = rig.tree().at("/demand");
     demand.data<double>("velocity") = 1;
     for (int cycle = 0; cycle < 500; ++cycle) {

@@ -107,7 +107,7 @@ std::string MemoryFile::write() {
         if (!file_) return problem;
     }
     if (anew_) return writeAnew();
-    const std::string problem = append();
+    std::string problem = append();
     if (!problem.empty()) return problem;
     return isTooLarge(end_) ? writeAnew() : sync();
 }

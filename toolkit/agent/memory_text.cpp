@@ -24,11 +24,11 @@ constexpr std::size_t longestLine = std::size_t{1} << 20U, chunkSize = std::size
 
 std::string escaped(std::string_view text) {
     constexpr std::string_view digits = "0123456789abcdef";
-    constexpr unsigned char firstPlain = 0x20, delete_ = 0x7f;
+    constexpr unsigned char firstPlain = 0x20, deletion = 0x7f;
     std::string result;
     for (const char c : text) {
         const auto octet = static_cast<unsigned char>(c);
-        if (octet >= firstPlain && octet != delete_ && c != '\\') {
+        if (octet >= firstPlain && octet != deletion && c != '\\') {
             result += c;
         } else {
             result += {'\\', 'x', digits[octet / 16], digits[octet % 16]};

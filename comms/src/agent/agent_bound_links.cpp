@@ -42,7 +42,7 @@ BoundGroup::BoundGroup(std::vector<std::shared_ptr<BoundLink>> theirs)
     for (std::size_t i = 0; i < links.size(); ++i) places[links[i]->claim.theirs] = i;
 }
 
-BoundLinks::BoundLinks(std::vector<std::uint32_t> simplexes) {
+BoundLinks::BoundLinks(const std::vector<std::uint32_t>& simplexes) {
     for (const std::uint32_t simplex : simplexes) seen_.push_back({.simplex = simplex});
     offer(std::vector<std::shared_ptr<BoundLink>>(seen_.size()));
 }

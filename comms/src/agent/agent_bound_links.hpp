@@ -80,7 +80,7 @@ struct BoundGroup {
 //    new group.
 class BoundLinks {
 public:
-    explicit BoundLinks(std::vector<std::uint32_t> simplexes);  // ours that are linked
+    explicit BoundLinks(const std::vector<std::uint32_t>& simplexes);  // ours that are linked
 
     // By link; null: nobody has it. Nobody fills a buffer meanwhile.
     void offer(const std::vector<std::shared_ptr<BoundLink>>& links);

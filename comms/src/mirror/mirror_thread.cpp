@@ -152,7 +152,8 @@ void MirrorThread::joinAnew(Moment now) {
     if (!rejoin_.isDue(hearsAny, endpoints_->findsUnproven(), time)) return;
     try {
         join();
-    } catch (const Error&) {  // it is due again
+    } catch (const Error&) {
+        return;  // it is due again
     }
 }
 

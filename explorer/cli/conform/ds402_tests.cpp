@@ -31,7 +31,8 @@ DriveAxis leadAxis(Bench& bench, std::size_t place, bool withTorque) {
     bench.undoAtRest([axis, before = found]() mutable {
         try {
             axis.lead(before);
-        } catch (const Ended&) {  // it is in a fault, or its link is gone
+        } catch (const Ended&) {
+            return;  // it is in a fault, or its link is gone
         }
     });
     return axis;

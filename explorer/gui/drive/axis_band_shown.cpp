@@ -22,7 +22,7 @@ bool isAFault(Ds402State state) {
 
 // "Fault 0x8611, following error"; who names the error may name its code, too.
 QString faultText(const DriveAxis& axis) {
-    const QString name = nameOfState(axis.state), code = wordText(axis.errorCode);
+    QString name = nameOfState(axis.state), code = wordText(axis.errorCode);
     if (axis.errorCode == 0) return name;
     if (axis.error.isEmpty()) return name + ' ' + code;
     return axis.error.contains(code, Qt::CaseInsensitive)

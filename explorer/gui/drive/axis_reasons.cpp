@@ -78,7 +78,7 @@ Homing homingOf(const SimplexNow& processor) {
 AxisReasons reasonsOf(const DriveAxis& axis, const Homing& homing, bool homes,
                       const std::function<QString(const char*)>& ask) {
     const auto because = [&](const char* command, const QString& ofState) {
-        const QString why = ask(command);
+        QString why = ask(command);
         if (!why.isEmpty()) return why;
         return axis.live() ? ofState : axis.trouble;
     };

@@ -26,7 +26,7 @@ QPolygonF octagonIn(const QRectF& box) {
 }  // namespace
 
 void paintMark(QPainter& painter, const QRectF& box, MarkShape shape, const QPalette& palette) {
-    const QColor ink = palette.color(QPalette::WindowText);
+    const QColor& ink = palette.color(QPalette::WindowText);
     const QRectF inner = box.adjusted(1, 1, -1, -1);
     painter.setPen(Qt::NoPen);
     painter.setBrush(Qt::NoBrush);

@@ -137,7 +137,7 @@ std::int64_t EventPast::valuesUntil() const {
 QString EventPast::reach() const {
     std::vector<PastReach> all;
     for (const auto& [name, each] : asked_) all.push_back(each.reach);
-    const QString text = reachText(all, from(now_));
+    QString text = reachText(all, from(now_));
     const std::int64_t until = valuesUntil();
     if (until == 0 || isAsked()) return text;
     return tr("Changes of values are known until %1; %2 asks again. %3")

@@ -15,7 +15,7 @@ QString sayNothing(const char* text, int count = -1) {
 
 // Participants with security are seen only by those that have it, too.
 QString whatWasLookedFor(const Frame& frame) {
-    const QString looked = sayNothing("Looked for %1.").arg(ageText(frame.seconds));
+    QString looked = sayNothing("Looked for %1.").arg(ageText(frame.seconds));
     if (frame.closed == 0) return looked;
     return looked + ' ' +
            sayNothing(

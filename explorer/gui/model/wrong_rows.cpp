@@ -34,7 +34,7 @@ QString outsideItem(const DataItem& item, const Value& value, std::optional<Shap
     QString name = QString::fromStdString(item.name);
     if (item.length > 1) name += QStringLiteral("[%1]").arg(element);
     const QString unit = item.unit.empty() ? QString{} : ' ' + unitText(item.unit);
-    const QString shown = name + ' ' + elementText(item, value, element) + unit;
+    QString shown = name + ' ' + elementText(item, value, element) + unit;
     if (number && upper && *number > *upper) {
         shape = Shape::AboveLimit;
         return ofWrong("%1, above %2").arg(shown, numberText(item, *upper));
@@ -81,7 +81,7 @@ QString lossWords(const Frame& frame, Place place) {
     if (agent.lost())
         return ofWrong("Agent %1 is lost for %2, with all that it has")
             .arg(plainText(agent.status.name), wholeAgeText(agent.status.age));
-    const QString gone = goneInputText(frame, place);
+    QString gone = goneInputText(frame, place);
     if (!gone.isEmpty()) return gone;
     const auto age = agent.age(place.simplex);
     return age ? ofWrong("Its values are lost for %1").arg(wholeAgeText(*age))

@@ -50,7 +50,7 @@ QStringList CursorOverlay::texts() const {
 
 // "12:15:06.200", or that it is out of view: in words where they have room.
 QString CursorOverlay::momentOf(double at) const {
-    const QString time = timeText(at, 1e-3);
+    QString time = timeText(at, 1e-3);
     if (placeOf(at)) return time;
     const QString words = tr("%1, out of view").arg(time);
     const QFontMetricsF metrics{Look::font(TextSize::Note)};

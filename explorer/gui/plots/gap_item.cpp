@@ -32,10 +32,10 @@ QRectF boxOf(const Gap& gap, const QwtScaleMap& xMap, const QRectF& row) {
 }  // namespace
 
 QString gapText(const Gap& gap, bool ofAll) {
-    const QString text = (gap.lack == Lack::NoData    ? tr("no data %1")
-                          : gap.lack == Lack::NotGood ? tr("not good %1")
-                                                      : tr("no data %1, in part not good"))
-                             .arg(durationText(gap.to - gap.from));
+    QString text = (gap.lack == Lack::NoData    ? tr("no data %1")
+                    : gap.lack == Lack::NotGood ? tr("not good %1")
+                                                : tr("no data %1, in part not good"))
+                       .arg(durationText(gap.to - gap.from));
     if (ofAll) return text;
     QString tags;
     for (const int each : gap.tags) {

@@ -31,11 +31,12 @@ std::string asSentence(std::string text) {
 
 // Where the folder cannot be read any longer, the agents alone say what is refused.
 std::vector<std::string> rightsIn(const std::string& security) {
+    const std::vector<std::string> everything{"/"};
     try {
-        if (!security.empty()) return comms::checkSecurity(security).mayCommand;
+        return security.empty() ? everything : comms::checkSecurity(security).mayCommand;
     } catch (const Error&) {
+        return everything;
     }
-    return {"/"};
 }
 
 // By prefix, the agents that it is held of; without what goes along with a wider one.

@@ -28,9 +28,8 @@ class OverviewTable::Delegate : public QStyledItemDelegate {
 public:
     using QStyledItemDelegate::QStyledItemDelegate;
 
-    void paint(QPainter* painter, const QStyleOptionViewItem& asked,
+    void paint(QPainter* painter, const QStyleOptionViewItem& option,
                const QModelIndex& index) const override {
-        QStyleOptionViewItem option = asked;
         const Tokens& c = Look::colours();
         paintRow(*painter, option);
         const QModelIndex first = index.siblingAtColumn(0);

@@ -82,7 +82,8 @@ QJsonObject TreeOpenness::saved() const {
     QJsonArray paths[2];
     std::size_t count = 0, bytes = 0;
     for (const auto& [path, open] : noted_) {
-        if (++count > mostPaths || (bytes += path.size()) > mostBytes) break;
+        bytes += path.size();
+        if (++count > mostPaths || bytes > mostBytes) break;
         paths[open ? 1 : 0].append(QString::fromStdString(path));
     }
     return {{openKey(false), paths[0]}, {openKey(true), paths[1]}};

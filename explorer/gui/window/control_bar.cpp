@@ -71,7 +71,7 @@ ControlBar::ControlBar(Session& session, QWidget* parent)
 // "everything but robot".
 QString ControlBar::partText(const std::string& prefix) const {
     const QStringList others = uncontrolled(*frame_, prefix);
-    const QString scope = narrow_ && prefix == "/" ? tr("all") : scopeText(prefix);
+    QString scope = narrow_ && prefix == "/" ? tr("all") : scopeText(prefix);
     if (others.isEmpty()) return scope;
     const QString names = others.join(QStringLiteral(", "));
     const QString who = names.size() <= (narrow_ ? longestNarrow : longestNames)
@@ -95,7 +95,7 @@ QString ControlBar::text() const {
     QStringList parts{partText(held.front())};
     if (held.size() == 2) parts << partText(held.back());
     if (held.size() > 2) parts << tr("%1 more").arg(held.size() - 1);
-    const QString what = tr("You control %1").arg(parts.join(tr(" and ")));
+    QString what = tr("You control %1").arg(parts.join(tr(" and ")));
     const QString since = sinceText();
     if (narrow_ || since.isEmpty() || !isWhole(held.front())) return what;
     return tr("%1 since %2").arg(what, since);
@@ -105,7 +105,7 @@ QString ControlBar::text() const {
 QString ControlBar::readOnlyText() const {
     const bool stops = !frame_->control.rights.empty() &&
                        std::ranges::any_of(frame_->agents, std::not_fn(&AgentFrame::lost));
-    const QString least = tr("Read-only");
+    QString least = tr("Read-only");
     if (!stops) return least;
     const QMargins margins = layout()->contentsMargins();
     const int room = room_ - margins.left() - layout()->spacing() - button_->minimumWidth() - 2;

@@ -346,7 +346,7 @@ QStringList Order::unanswered(const Frame& frame, bool silentOnly) const {
 }
 
 QString Order::nameOf(const Meant& meant) const {
-    const QString path = QString::fromStdString(meant.path);
+    QString path = QString::fromStdString(meant.path);
     if (std::ranges::count(meant_, meant.path, &Meant::path) < 2) return path;
     return say("%1 of %2").arg(path, QString::fromStdString(meant.agent));
 }

@@ -119,13 +119,12 @@ void Ds402SimulatedDrive::loopEnd(const Tick& tick) {
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         Axis& axis = axes_[i];
         set(i);
-        const double before = axis.drive.outputs().velocity;
-        const std::int64_t mode = axis.drive.outputs().modeDisplay;
-        axis.demand.see(inputLost(), axis.drive.outputs().position, mode, seconds);
-        drives::Ds402Inputs inputs = axis.demand.inputs(mode);
+        const drives::Ds402Outputs& outputs = axis.drive.outputs();
+        const double before = outputs.velocity;
+        axis.demand.see(inputLost(), outputs.position, outputs.modeDisplay, seconds);
+        drives::Ds402Inputs inputs = axis.demand.inputs(outputs.modeDisplay);
         if (inputLost() || state() == State::Fault) inputs.controlWord = ds402QuickStop;
         axis.drive.step(inputs, seconds);
-        const drives::Ds402Outputs& outputs = axis.drive.outputs();
         axis.observation.write(outputs, seconds > 0 ? (outputs.velocity - before) / seconds : 0,
                                axis.demand.waits());
     }

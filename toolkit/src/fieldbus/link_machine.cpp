@@ -105,11 +105,12 @@ void LinkMachine::Thread::connectAnew(LinkSteps& device) {
     connect(device);
 }
 
-// The loop has waited until the demand is safe. Nobody is left to hear of an error.
+// The loop has waited until the demand is safe.
 void LinkMachine::Thread::end(LinkSteps& device) {
     try {
         if (device.hasDemand()) device.exchangeNewest();
     } catch (const LinkError&) {
+        return;  // nobody is left to hear of it
     }
 }
 
