@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/event_fold.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -22,8 +24,13 @@ struct EventFoldTest : testing::Test {
         return event;
     }
 
+    static Event done(const std::string& text) {
+        return event(text.c_str(), EventKind::Command, Severity::Info);
+    }
+
     std::vector<std::string> told;
-    EventFold fold{[this](const Event& each) { told.emplace_back(each.text.view()); }};
+    EventFold fold{[this](const Event& each) { told.emplace_back(each.text.view()); },
+                   [](std::uint32_t, std::string_view command) { return command == "jog"; }};
 };
 
 TEST_F(EventFoldTest, TellsTheFirstAtOnceAndThenACountEachSecond) {
@@ -80,25 +87,106 @@ TEST_F(EventFoldTest, NeverFoldsFaultsErrorsStatesAndCommands) {
     EXPECT_EQ(told.size(), 10U);
 }
 
-TEST_F(EventFoldTest, TellsARunOfCommandsOnceASecondWithTheNewestArguments) {
-    const auto done = [](const std::string& text) {
-        return event(text.c_str(), EventKind::Command, Severity::Info);
-    };
-    for (int i = 0; i < 30; ++i) {  // three seconds of jog at 10 Hz, and a slider
-        const std::int64_t now = i * second / 10;
-        const std::string speed = i % 2 == 0 ? "-1.5e-05" : "2";
-        fold.take(done("desk: jog(speed=" + speed + "): Done in the same cycle"), now);
-        fold.take(done("desk: set(gain=" + std::to_string(i) + ", on=true): Done in 2 cycles"),
-                  now);
+TEST_F(EventFoldTest, TellsEachCommandThatIsNotTheSameWordForWord) {
+    std::vector<std::string> sent;
+    for (int i = 0; i < 50; ++i) {
+        sent.push_back("desk: " + std::string{i % 2 == 0 ? "set(gain=" : "move(to="} +
+                       std::to_string(i) + "): Done in 2 cycles");
+        fold.take(done(sent.back()), i);
     }
-    fold.take(done("desk: set(title=\"new\"): Done in 1 cycle"), 3 * second - 1);
+    for (const char* each : {"desk: set(on=true): Done", "desk: set(on=false): Done",
+                             "desk: set(name=\"T4\"): Done", "desk: set(name=\"T5\"): Done"}) {
+        sent.emplace_back(each);
+        fold.take(done(each), 50);
+    }
+    EXPECT_EQ(told, sent);
+}
+
+TEST_F(EventFoldTest, CountsCommandsThatAreTheSameWordForWordHoweverLongTheyTook) {
+    for (int i = 0; i < 3; ++i)
+        fold.take(done("desk: set(gain=1): Done in " + std::to_string(i + 2) + " cycles"), i);
+    fold.pass(second);
+
+    EXPECT_EQ(told, (std::vector<std::string>{
+                        "desk: set(gain=1): Done in 2 cycles",
+                        "2 times within a second: desk: set(gain=1): Done in 4 cycles"}));
+}
+
+TEST_F(EventFoldTest, TellsEachCommandOfWhichNotEveryWordIsLeft) {
+    for (int i = 0; i < 2; ++i) {
+        fold.take(done("desk: set(gain=1, na…): Done in 2 cycles"), i);
+        fold.take(done("desk: set(gain=1, nam"), i);
+    }
+    EXPECT_EQ(told.size(), 4U);
+}
+
+TEST_F(EventFoldTest, TellsARunOfAHeldButtonOnceASecondWithItsLastArgumentsAndTheirRanges) {
+    for (int i = 0; i < 30; ++i) {  // three seconds of jog at 10 Hz
+        const std::string speed = i % 3 == 0 ? "-1.5e-05" : i % 3 == 1 ? "2" : "0.25";
+        fold.take(done("desk: jog(axis=1, speed=" + speed + "): Done in 1 cycle"), i * second / 10);
+    }
     fold.pass(3 * second);
 
-    ASSERT_EQ(told.size(), 8U);
-    EXPECT_EQ(told[0], "desk: jog(speed=-1.5e-05): Done in the same cycle");
-    EXPECT_EQ(told[1], "desk: set(gain=0, on=true): Done in 2 cycles");
-    EXPECT_EQ(told[2], "9 times within a second: desk: jog(speed=2): Done in the same cycle");
-    EXPECT_EQ(told.back(), "11 times within a second: desk: set(title=\"new\"): Done in 1 cycle");
+    EXPECT_EQ(
+        told,
+        (std::vector<std::string>{
+            "desk: jog(axis=1, speed=-1.5e-05): Done in 1 cycle",
+            "9 times within a second: desk: jog(axis=1, speed=-1.5e-05 (-1.5e-05 to 2)): Done "
+            "in 1 cycle",
+            "10 times within a second: desk: jog(axis=1, speed=2 (-1.5e-05 to 2)): Done in 1 "
+            "cycle",
+            "10 times within a second: desk: jog(axis=1, speed=0.25 (-1.5e-05 to 2)): Done in "
+            "1 cycle"}));
+}
+
+TEST_F(EventFoldTest, KeepsApartWhatAHeldButtonSaysInOtherWords) {
+    for (const char* text :
+         {"desk: jog(frame=base, speed=1): Done", "desk: jog(frame=tip, speed=1): Done",
+          "desk: jog(speed=1 2): Done", "desk: jog(speed=1): Done", "desk: jog(tool=\"T1\"): Done",
+          "desk: jog(tool=\"T2\"): Done", "desk: jog(tool=\" 1\"): Done",
+          "desk: jog(tool=\" 2\"): Done"})
+        fold.take(done(text), 0);
+    EXPECT_EQ(told.size(), 8U);
+}
+
+TEST_F(EventFoldTest, LeavesOutRangesForWhichATextHasNoRoom) {
+    const std::string name(80, 'n');
+    for (const char* speed : {"1.125", "1.25", "1.5"})
+        fold.take(done(name + ": jog(speed=" + speed + "): Done in 1 cycle"), 0);
+    fold.pass(second);
+    EXPECT_EQ(told.back(),
+              "2 times within a second: " + name + ": jog(speed=1.5): Done in 1 cycle");
+}
+
+TEST_F(EventFoldTest, CountsRefusalsOfAHeldButtonAndTellsThoseOfOtherCommands) {
+    const auto refused = [](const std::string& text) {
+        return event(text.c_str(), EventKind::Refusal);
+    };
+    for (int i = 0; i < 5; ++i) {
+        const std::string number = std::to_string(i);
+        fold.take(refused("desk: jog(speed=" + number + "): Rejected (range), " + number + " is"),
+                  i);
+        fold.take(refused("desk: set(gain=" + number + "): Rejected (range), no"), i);
+    }
+    EXPECT_EQ(told.size(), 6U);
+}
+
+TEST_F(EventFoldTest, NeverTellsATimeBeforeWhatItToldAlready) {
+    std::vector<std::int64_t> times;
+    EventFold timed{[&times](const Event& each) { times.push_back(each.wallClock); },
+                    [](std::uint32_t, std::string_view) { return false; }};
+    for (std::int64_t i = 1; i <= 40; ++i) {
+        Event each = event(i % 4 == 0   ? "over"
+                           : i % 4 == 1 ? "desk: set(x=1): Done"
+                                        : "a",
+                           i % 4 == 1 ? EventKind::Command : EventKind::Limit, Severity::Info);
+        if (i % 4 == 3) each = event("lost", EventKind::Fault);
+        each.wallClock = i * second / 10;
+        timed.take(each, each.wallClock);
+    }
+    timed.pass(100 * second);
+    EXPECT_GT(times.size(), 20U);
+    EXPECT_TRUE(std::ranges::is_sorted(times));
 }
 
 TEST_F(EventFoldTest, KeepsApartCommandsOfOtherSendersPathsNamesAndTexts) {
@@ -107,7 +195,7 @@ TEST_F(EventFoldTest, KeepsApartCommandsOfOtherSendersPathsNamesAndTexts) {
           "desk for ann: jog(speed=1): Done in 1 cycle", "desk: halt(): Done in 1 cycle",
           "desk: take(prefix=\"/arm\"): Done in 1 cycle",
           "desk: take(prefix=\"/hand\"): Done in 1 cycle"}) {
-        Event here = event(text, EventKind::Command, Severity::Info);
+        Event here = done(text);
         fold.take(here, 0);
         here.simplex = 3;
         fold.take(here, 0);

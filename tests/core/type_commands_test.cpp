@@ -32,7 +32,7 @@ const Command& go(const XmlModel& model, const std::string& type) {
 TEST(Command, ReadsEveryAttribute) {
     const XmlModel model =
         commands(command("available='Standby Active' long='true' timeout='2.5' confirm='true' "
-                         "stops='true' "
+                         "stops='true' repeated='true' "
                          "onBusy='replace' onSenderLost='cancel' description='d'",
                          "<request name='to' kind='float' unit='m' max='1' default='0.5'/>"
                          "<request name='how' kind='string' capacity='8'/>"
@@ -40,7 +40,7 @@ TEST(Command, ReadsEveryAttribute) {
     ASSERT_TRUE(isValid(model));
     const Command& c = go(model, "A");
     EXPECT_EQ(c.available.text(), "Standby Active");
-    EXPECT_TRUE(c.isLong && c.confirm && c.stops);
+    EXPECT_TRUE(c.isLong && c.confirm && c.stops && c.repeated);
     EXPECT_EQ(c.timeout, 2.5);
     EXPECT_EQ(c.onBusy, OnBusy::Replace);
     EXPECT_EQ(c.onSenderLost, OnSenderLost::Cancel);
@@ -149,6 +149,8 @@ TEST(CommandNarrowing, NeverWidensOrChangesTheRecord) {
     EXPECT_TRUE(finds(commands(command("confirm='true'"), command("confirm='false'")),
                       "confirm-loosened", "A", 4));
     EXPECT_TRUE(finds(commands(command(""), command("stops='true'")), "stops-loosened", "A", 4));
+    EXPECT_TRUE(
+        finds(commands(command(""), command("repeated='true'")), "repeated-loosened", "A", 4));
     EXPECT_TRUE(finds(commands(command(""), command("", "<request name='x' kind='int'/>")),
                       "parameters-changed", "A", 4));
     EXPECT_TRUE(finds(commands(command("", "<request name='x' kind='int'/>"),

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an agent remembers survives its restart, in a file.
+#include "cortex/core/value.hpp"
+
 #include "cli/cortex_process.hpp"
 #include "comms/past_of.hpp"
 #include "processes/station.hpp"
@@ -15,6 +17,8 @@ namespace cortex::test {
 namespace {
 
 namespace fs = std::filesystem;
+
+using Texts = std::vector<std::string>;
 
 class RememberedOverRestarts : public testing::Test {
 protected:
@@ -36,13 +40,16 @@ protected:
     bool isWritten(const std::string& part) {
         return station.waitFor([&] { return contains(text(), part); });
     }
-    void setGain(const std::string& value) {
+    void cortexHere(Texts words) {
         const comms::NetworkOptions network = comms::loopback();
-        const Outcome done =
-            cortex({"set", "/counter", "gain=" + value, "--domain", std::to_string(network.domain),
-                    "--interface", network.interfaces.front(), "--timeout", "60"});
+        for (const std::string& each :
+             {std::string{"--domain"}, std::to_string(network.domain), std::string{"--interface"},
+              network.interfaces.front(), std::string{"--timeout"}, std::string{"60"}})
+            words.push_back(each);
+        const Outcome done = cortex(words);
         ASSERT_EQ(done.exit, 0) << done.errors;
     }
+    void setGain(const std::string& value) { cortexHere({"set", "/counter", "gain=" + value}); }
     // The commands of all starts, as tools are told them.
     std::vector<std::string> commands() {
         std::vector<std::string> found;
@@ -62,7 +69,27 @@ protected:
     Station station;
 };
 
-using Texts = std::vector<std::string>;
+TEST_F(RememberedOverRestarts, EachCommandOfManyInASecondStandsThereWordForWordAndInOrder) {
+    AgentProcess agent = agentWith();
+    Texts sent;
+    std::string lines;
+    for (int i = 0; i < 50; ++i) {
+        const std::string value = toText(i / 8.0);
+        lines += "set /counter gain=" + value + "\n";
+        sent.push_back("set(gain=" + value + ")");
+    }
+    cortexHere({"shell", folder.write("lines.txt", lines).string()});
+
+    EXPECT_TRUE(station.waitFor([&] { return commands() == sent; })) << agent.output();
+    ASSERT_TRUE(isWritten(sent.back()));
+    std::size_t last = 0;
+    const std::string file = text();
+    for (const std::string& each : sent) {
+        const std::size_t at = file.find(each, last);
+        ASSERT_NE(at, std::string::npos) << each << "\n" << file;
+        last = at;
+    }
+}
 
 TEST_F(RememberedOverRestarts, ACommandIsToldThoughTheAgentWasKilled) {
     AgentProcess agent = agentWith();

@@ -134,6 +134,7 @@ constexpr std::array commandAttributes{
     AttributeReader<C>{"timeout", floatInto<&C::timeout>},
     AttributeReader<C>{"confirm", boolInto<&C::confirm>},
     AttributeReader<C>{"stops", boolInto<&C::stops>},
+    AttributeReader<C>{"repeated", boolInto<&C::repeated>},
     AttributeReader<C>{"onBusy", enumInto<&C::onBusy>},
     AttributeReader<C>{"onSenderLost", enumInto<&C::onSenderLost>},
     AttributeReader<C>{"description", textInto<&C::description>},

@@ -185,9 +185,16 @@ void EventRing::pop() {
 EventLog::EventLog(std::shared_ptr<const Structure> structure, std::uint32_t rings,
                    std::uint32_t capacity)
     : structure_{std::move(structure)},
-      fold_{std::make_unique<EventFold>([this](const Event& event) {
-          for (const Sink& sink : foldedSinks_) sink(event, *structure_);
-      })} {
+      fold_{std::make_unique<EventFold>(
+          [this](const Event& event) {
+              for (const Sink& sink : foldedSinks_) sink(event, *structure_);
+          },
+          [this](std::uint32_t simplex, std::string_view name) {
+              if (simplex >= structure_->simplexes.size()) return false;
+              const Command* command =
+                  structure_->simplexes[simplex].layout->type->findCommand(name);
+              return command != nullptr && command->repeated;
+          })} {
     // Ranks of simplexes without a task follow those of the canonical order.
     const std::size_t orders = 2 * structure_->simplexes.size() + 1;
     for (std::uint32_t i = 0; i < rings; ++i) {

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/event_memory.hpp"
 
+#include "cortex/core/command_sentence.hpp"
+
 #include <algorithm>
+#include <cctype>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace cortex {
@@ -23,6 +28,26 @@ std::optional<std::size_t> shelfOf(EventKind kind, Severity severity) {
     const auto shelf = static_cast<std::size_t>(found - kinds.begin());
     if (shelf < others || severity == Severity::Error) return shelf;
     return {};
+}
+
+// The sender of a command, also of many that are told at once; else the path and the words, which
+// are the same again where a number is another one.
+std::size_t originOf(const KeptEvent& event) {
+    constexpr std::string_view times = " times within a second: ";
+    std::string_view text = event.text;
+    if (const auto at = text.find(times); at != std::string_view::npos)
+        text.remove_prefix(at + times.size());
+    const bool isCommand = event.kind == EventKind::Command || event.kind == EventKind::Control ||
+                           event.kind == EventKind::Refusal;
+    if (isCommand) {
+        if (const auto sentence = commandSentence(text))
+            return std::hash<std::string_view>{}(sentence->sender);
+    }
+    std::string origin = event.path + '\n';
+    std::ranges::copy_if(text, std::back_inserter(origin), [](char each) {
+        return std::isdigit(static_cast<unsigned char>(each)) == 0;
+    });
+    return std::hash<std::string>{}(origin);
 }
 
 // What was dropped may have the last time there is.
@@ -61,34 +86,50 @@ std::uint64_t EventMemory::keep(KeptEvent event) { return add(std::move(event), 
 
 std::uint64_t EventMemory::recall(KeptEvent event) { return add(std::move(event), &Kept::earlier); }
 
-std::uint64_t EventMemory::add(KeptEvent event, std::deque<KeptEvent> Kept::* where) {
+std::uint64_t EventMemory::add(KeptEvent event, Entries Kept::* where) {
     const auto shelf = shelfOf(event.kind, event.severity);
     if (!shelf) return 0;
     const std::lock_guard lock{mutex_};
     Kept& kept = kept_[*shelf];
     event.place = ++place_;
-    kept.bytes += sizeOf(event);
-    (kept.*where).push_back(std::move(event));
+    const std::size_t size = sizeOf(event), origin = originOf(event);
+    kept.bytes += size;
+    kept.shares[origin] += size;
+    (kept.*where).push_back({std::move(event), origin});
     const auto isFull = [&kept](std::size_t entries) {
         return entries > kept.most || kept.bytes > kept.most * bytesOfEntry;
     };
     for (std::size_t entries = kept.earlier.size() + kept.events.size();
          entries > 1 && isFull(entries); --entries) {
-        kept.dropOldest();
+        kept.drop();
     }
     return place_;
 }
 
-void EventMemory::Kept::dropOldest() {
-    std::deque<KeptEvent>& oldest = earlier.empty() ? events : earlier;
-    since = std::max(since, after(oldest.front().wallClock));
-    bytes -= sizeOf(oldest.front());
-    oldest.pop_front();
+// The newest of this start stays in any case.
+void EventMemory::Kept::drop() {
+    const auto hasTooMuch = [this](const Entry& each) {
+        return shares[each.origin] > bytes / 4 && (events.empty() || &each != &events.back());
+    };
+    Entries* where = earlier.empty() ? &events : &earlier;
+    auto found = where->begin();
+    for (Entries* each : {&earlier, &events}) {
+        const auto first = std::ranges::find_if(*each, hasTooMuch);
+        if (first == each->end()) continue;
+        where = each;
+        found = first;
+        break;
+    }
+    since = std::max(since, after(found->wallClock));
+    const std::size_t size = sizeOf(*found);
+    bytes -= size;
+    if ((shares[found->origin] -= size) == 0) shares.erase(found->origin);
+    where->erase(found);
 }
 
 EventMemory::Page EventMemory::page(std::uint64_t place, std::int64_t from, std::int64_t until,
                                     std::size_t bytes) const {
-    using Position = std::deque<KeptEvent>::const_iterator;
+    using Position = Entries::const_iterator;
     const std::lock_guard lock{mutex_};
     std::vector<std::pair<Position, Position>> runs;
     for (const Kept& each : kept_) {

@@ -92,6 +92,7 @@ void intersect(Command& command, const FromParent<Command>& second, const std::s
     differs("onSenderLost", name(command.onSenderLost), name(other.onSenderLost));
     command.confirm = command.confirm || other.confirm;
     command.stops = command.stops && other.stops;
+    command.repeated = command.repeated && other.repeated;
     if (command.description.empty()) command.description = other.description;
 }
 
@@ -129,13 +130,17 @@ void narrow(Command& command, const Command& own, const Stated& stated,
         }
         command.confirm = command.confirm || own.confirm;
     }
-    if (stated("stops", own.stops)) {
-        if (own.stops && !command.stops) {
-            context.error(finding::stopsLoosened, "adds stops=\"true\" to an inherited command",
-                          "leave stops out");
+    const auto onlyTakenBack = [&](const char* name, bool Command::* flag, const char* finding) {
+        if (!stated(name, own.*flag)) return;
+        if (own.*flag && !(command.*flag)) {
+            context.error(finding,
+                          std::string{"adds "} + name + "=\"true\" to an inherited command",
+                          std::string{"leave "} + name + " out");
         }
-        command.stops = command.stops && own.stops;
-    }
+        command.*flag = command.*flag && own.*flag;
+    };
+    onlyTakenBack("stops", &Command::stops, finding::stopsLoosened);
+    onlyTakenBack("repeated", &Command::repeated, finding::repeatedLoosened);
     if (stated("timeout", own.timeout != 0)) command.timeout = own.timeout;
     if (stated("onBusy", own.onBusy != OnBusy::Reject)) command.onBusy = own.onBusy;
     if (stated("onSenderLost", own.onSenderLost != OnSenderLost::Continue)) {

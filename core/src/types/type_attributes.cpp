@@ -139,6 +139,7 @@ std::vector<TypeAttribute> attributesOf(const Command& command) {
                  {"long", truth(command.isLong), "false"},
                  {"onBusy", name(command.onBusy), name(plain.onBusy)},
                  {"onSenderLost", name(command.onSenderLost), name(plain.onSenderLost)},
+                 {"repeated", truth(command.repeated), "false"},
                  {"stops", truth(command.stops), "false"},
                  {"timeout", toText(command.timeout), "0"}});
 }

@@ -104,6 +104,7 @@ Json commandJson(const Command& command) {
               {"timeout_s", command.timeout > 0 ? Json(command.timeout) : Json()},
               {"confirm", command.confirm},
               {"stops", command.stops},
+              {"repeated", command.repeated},
               {"on_busy", name(command.onBusy)},
               {"on_sender_lost", name(command.onSenderLost)},
               {"request", parametersJson(command.request)},

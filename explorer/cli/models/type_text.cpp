@@ -117,6 +117,7 @@ void printCommands(std::ostream& stream, const Type& type) {
         if (command.timeout > 0) more.push_back("timeout " + toText(command.timeout) + " s");
         if (command.confirm) more.emplace_back("to be confirmed");
         if (command.stops) more.emplace_back("stops");
+        if (command.repeated) more.emplace_back("repeated");
         if (command.isLong) more.push_back("on busy " + std::string{name(command.onBusy)});
         if (command.onSenderLost != OnSenderLost::Continue) {
             more.push_back("on sender lost " + std::string{name(command.onSenderLost)});

@@ -26,11 +26,9 @@ bool isFrom(std::string_view sender, std::string_view self) {
     return sender.empty() || sender.front() == '@' || sender.front() == ' ';
 }
 
-// The names in "a=1, b=2 3"; of several commands in one event only the last one has them.
+// The names in "a=1, b=2 3"; an empty one where not all of them are left.
 std::vector<std::string> itemsIn(const CommandSentence& set) {
-    const bool all = set.outcome.empty() || set.arguments.ends_with("…") ||
-                     set.sender.find(folded) != std::string_view::npos;
-    if (all) return {std::string{}};
+    if (set.outcome.empty() || set.arguments.ends_with("…")) return {std::string{}};
     std::vector<std::string> items;
     for (std::size_t begin = 0, end = 0; begin < set.arguments.size(); begin = end) {
         const std::size_t equals = set.arguments.find('=', begin);

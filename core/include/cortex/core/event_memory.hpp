@@ -10,6 +10,7 @@
 #include <limits>
 #include <mutex>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace cortex {
@@ -29,8 +30,10 @@ struct KeptEvent {
 
 // What an agent keeps of the past: faults, changes of state, commands, refusals, control, losses,
 // values that changed their state, and errors of all other kinds, under Message. Each has room of
-// its own, so a flood of one drives out no other; all else is chatter, which is not kept. The
-// oldest of a kind goes first. Any thread; the loop does not use it.
+// its own, so a flood of one drives out no other; all else is chatter, which is not kept. In a room
+// that is full the oldest goes first of those that have more than a quarter of it: the commands of
+// one sender, or what one path says again and again in the same words. Where nothing has so much,
+// it is the oldest of all. Any thread; the loop does not use it.
 class EventMemory {
 public:
     static constexpr std::size_t usualEntries = 20'000;
@@ -68,14 +71,19 @@ public:
     std::size_t bytes() const;                          // of all that is kept
 
 private:
+    struct Entry : KeptEvent {
+        std::size_t origin = 0;  // hash of who says it
+    };
+    using Entries = std::deque<Entry>;
     struct Kept {
         std::size_t most = 0;  // entries
         std::size_t bytes = 0;
         std::int64_t begin = 0, since = 0;  // `since`: of what was dropped
-        std::deque<KeptEvent> earlier, events;
-        void dropOldest();
+        Entries earlier, events;
+        std::unordered_map<std::size_t, std::size_t> shares;  // bytes, by origin
+        void drop();
     };
-    std::uint64_t add(KeptEvent event, std::deque<KeptEvent> Kept::* where);
+    std::uint64_t add(KeptEvent event, Entries Kept::* where);
 
     mutable std::mutex mutex_;
     std::array<Kept, kinds.size()> kept_;

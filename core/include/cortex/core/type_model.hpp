@@ -96,8 +96,9 @@ struct Command {
     StateSet available = StateSet::of(State::Active);
     bool isLong = false;
     bool confirm = false;
-    bool stops = false;  // needs no control where nobody else holds it (docs/leases.md)
-    double timeout = 0;  // s; 0: none
+    bool stops = false;     // needs no control where nobody else holds it (docs/leases.md)
+    bool repeated = false;  // by a held button: events tell a second of it in one line
+    double timeout = 0;     // s; 0: none
     OnBusy onBusy = OnBusy::Reject;
     OnSenderLost onSenderLost = OnSenderLost::Continue;
     UnknownAttributes unknown;

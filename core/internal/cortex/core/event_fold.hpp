@@ -7,37 +7,53 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <tuple>
+#include <vector>
 
 namespace cortex {
 
 // Hands the first of equal events on at once, and counts those that follow: each second one event
-// says how many there were. Texts that differ only in numbers are equal. So are commands of one
-// sender to one simplex that are done and differ only in numbers, and any two of them that set
-// items. Faults, errors, changes of state, and commands that fail are never folded. Numbers what it
-// hands on. One thread at a time.
+// says how many there were. Texts that differ only in numbers are equal. Commands are only where
+// they are the same word for word, or where their type says that a held button repeats them: of
+// these the event tells the last arguments, and the ranges of their numbers. Faults, errors,
+// changes of state, and commands that fail are never folded. Numbers what it hands on, whose times
+// never go back for its sake. One thread at a time.
 class EventFold {
 public:
     using Out = std::function<void(const Event&)>;
+    // Whether the type of this simplex says so of this command.
+    using IsRepeated = std::function<bool(std::uint32_t simplex, std::string_view command)>;
 
-    explicit EventFold(Out out) : out_{std::move(out)} {}
+    EventFold(Out out, IsRepeated isRepeated)
+        : out_{std::move(out)}, isRepeated_{std::move(isRepeated)} {}
 
     void take(const Event& event, std::int64_t now);  // ns
     void pass(std::int64_t now);                      // tells the counts of seconds that are over
 
 private:
     using Key = std::tuple<std::uint32_t, EventKind, Severity, std::string>;
+    struct Range {
+        double least = 0, greatest = 0;
+        std::string leastText, greatestText;
+    };
     struct Folded {
         std::int64_t since = 0;
         std::int64_t count = 0;  // that were not handed on
         Event last;
+        std::vector<Range> ranges;  // of the numbers of a command that is repeated
     };
+    std::string keyOf(const Event& event) const;
+    void count(Folded& folded, const Event& event) const;
     void handOn(Event event);
     void tell(const Folded& folded);
+    static std::string withRanges(const Folded& folded);
 
     Out out_;
+    IsRepeated isRepeated_;
     std::map<Key, Folded> open_;
     std::uint64_t number_ = 0;
+    std::int64_t newest_ = 0;  // wallClock of what was handed on
 };
 
 }  // namespace cortex

@@ -92,6 +92,7 @@ inline constexpr char availabilityWidened[] = "availability-widened";
 inline constexpr char longChanged[] = "long-changed";
 inline constexpr char confirmLoosened[] = "confirm-loosened";
 inline constexpr char stopsLoosened[] = "stops-loosened";
+inline constexpr char repeatedLoosened[] = "repeated-loosened";
 inline constexpr char timeout[] = "timeout";
 inline constexpr char recordSize[] = "record-size";
 
