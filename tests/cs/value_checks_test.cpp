@@ -121,11 +121,23 @@ TEST_F(WrittenValues, AreBadAsLongAsTheyAreNoNumbersAndGoodAfterwards) {
     cluster.step(3);
     EXPECT_EQ(cluster.quality("/seen"), Quality::Bad);
     EXPECT_EQ(counted(), 0) << "that is no limit";
+    EXPECT_EQ(told("/a: level of /seen is a number again"), 0);
 
     write([this] { level = 1.0; });
-    cluster.step();
+    cluster.step(3);
 
     EXPECT_EQ(cluster.quality("/seen"), Quality::Good);
+    EXPECT_EQ(told("/a: level of /seen is a number again"), 1);
+}
+
+TEST_F(WrittenValues, OutOfTheirRangeThatThenAreNoNumbersAreToldOfBoth) {
+    for (const double value : {3.0, nan, nan, 3.0, 3.0, 1.0}) {
+        write([this, value] { level = value; });
+        cluster.step();
+    }
+    EXPECT_EQ(told("/a: level of /seen is 3 m, out of its range -2 .. 2"), 2);
+    EXPECT_EQ(told("/a: level of /seen is not a number: its quality is bad"), 1);
+    EXPECT_EQ(told("/a: level of /seen is a number again"), 1);
 }
 
 TEST_F(WrittenValues, OfItsOwnThatAreNoNumbersMakeASimplexBad) {

@@ -155,8 +155,9 @@ private:
     std::uint64_t shuffle_;
     std::uint64_t arrivals_ = 0;
     std::map<const Type*, Shape> shapes_;
-    std::vector<RefSimplex> all_;                                      // sorted by path
-    std::set<std::pair<const Record*, const DataItem*>> wrongValues_;  // in the cycle before
+    std::vector<RefSimplex> all_;  // sorted by path
+    // In the cycle before; true: it was no number.
+    std::map<std::pair<const Record*, const DataItem*>, bool> wrongValues_;
     std::deque<Link> links_;
     std::vector<int> order_;             // canonical, of all
     std::vector<int> execution_;         // any order that the relationships allow

@@ -67,14 +67,20 @@ void Reference::checkValues(int writer, RefSimplex& checked, Record& values) {
                                isIn(types_, *checked.type, "Activity", name);
         if (item.type->measured || (framework && name != "progress")) continue;
         const WrongValue wrong = wrongIn(item, values);
-        const bool began = wrong.any && !wrongValues_.contains({&values, item.type});
+        const auto before = wrongValues_.find({&values, item.type});
+        const bool wasNoNumber = before != wrongValues_.end() && before->second;
+        const bool began =
+            wrong.any && (before == wrongValues_.end() || before->second != wrong.notFinite);
         any = any || wrong.any;
         notFinite = notFinite || wrong.notFinite;
         outOfRange = outOfRange || (wrong.any && !wrong.notFinite);
         if (!wrong.any)
             wrongValues_.erase({&values, item.type});
         else
-            wrongValues_.insert({&values, item.type});
+            wrongValues_[{&values, item.type}] = wrong.notFinite;
+        if (wasNoNumber && !wrong.notFinite)
+            post(writer, Severity::Info, EventKind::Limit,
+                 item.type->name + " of " + checked.path + " is a number again");
         if (!began) continue;
         std::string text = item.type->name + " of " + checked.path + " is ";
         if (wrong.notFinite)

@@ -23,7 +23,7 @@ public:
     explicit GripperRig(double hardest,
                         std::chrono::milliseconds cycle = std::chrono::milliseconds{1})
         : Rig{"rig", cycle}, acceleration_{hardest}, period_{cycle} {}
-    enum Object : std::int64_t { Moving, StoppedOpening, StoppedClosing, AtDemand };
+    enum Object : std::int64_t { Moving, StoppedOpening, StoppedClosing, AtDemand, Lost };
 
     void begin();  // all is Active
     // Steps; the demand changes no faster than its axis may.

@@ -80,5 +80,25 @@ TEST_F(GripperWithStatus, TellsThatAWorkPieceIsLost) {
     EXPECT_EQ(rig.object(), GripperRig::AtDemand);
 }
 
+TEST_F(GripperWithStatus, SaysThatNobodyKnowsWhileItIsLostAndAfterwardsWhatItHolds) {
+    rig.put(workPiece);
+    ASSERT_TRUE(rig.ask("grip").done());
+    ASSERT_TRUE(rig.call("/it", "shutdown").done());
+    rig.step(100);
+    EXPECT_EQ(rig.object(), GripperRig::StoppedClosing) << "it holds it by itself";
+    ASSERT_TRUE(rig.call("/it", "startup").done());
+    rig.step(500);
+    EXPECT_EQ(rig.told(), "");
+
+    rig.tree().at("/status").slot().quality = Quality::Lost;
+    rig.step();
+    EXPECT_EQ(rig.object(), GripperRig::Lost);
+    EXPECT_TRUE(rig.told().ends_with(
+        "\nwhether the work piece is still held is not known: the gripper is lost\n"))
+        << rig.told();
+    rig.step(500);
+    EXPECT_EQ(rig.object(), GripperRig::StoppedClosing);
+}
+
 }  // namespace
 }  // namespace cortex::toolkit::test

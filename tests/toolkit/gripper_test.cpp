@@ -114,6 +114,42 @@ TEST_F(Slide, TellsThatAWorkPieceIsLostAndCloses) {
     EXPECT_TRUE(rig.isWell());
 }
 
+TEST_F(Slide, TellsThatAGripEndsWithoutACommand) {
+    const std::string notFollowed =
+        "the work piece is held no more: /axis does not follow: its drive says ";
+    rig.put(workPiece);
+    struct End {
+        std::string path, command, told;
+        std::vector<std::string> back;
+    };
+    for (const auto& [path, command, told, back] :
+         {End{"/processor", "quickStop", notFollowed + "Disabled", {"enable"}},
+          End{"/drive",
+              "injectFault",
+              notFollowed + "Fault",
+              {"resetFault", "clearFaults", "startup"}},
+          End{"/processor", "shutdown", notFollowed + "Disabled", {"startup"}},
+          End{"/it",
+              "shutdown",
+              "the force on the work piece is kept no more: this controller is not Active",
+              {"startup"}}}) {
+        ASSERT_TRUE(rig.ask("grip", "force", 60.0).done()) << path << command;
+        expectHeld(60);
+        const std::string before = rig.told();
+        ASSERT_TRUE(rig.call(path, command).done()) << path << command;
+        rig.step(1000);
+        const std::string news = rig.told().substr(before.size());
+        EXPECT_NE(news.find(told), std::string::npos) << path << command << news;
+        EXPECT_EQ(news.find("work piece"), news.rfind("work piece")) << "twice: " << news;
+        EXPECT_EQ(rig.object(), GripperRig::Lost) << path << command;
+        for (const std::string& each : back) {
+            rig.call(path == "/drive" ? "/processor" : path, each);
+            rig.step(2000);
+        }
+        EXPECT_EQ(rig.object(), GripperRig::Lost) << "until somebody commands anew";
+    }
+}
+
 TEST_F(Slide, HoldsAWorkPieceFromInsideByOpening) {
     ASSERT_TRUE(rig.ask("close").done());
     rig.stops(-1, 0.06);

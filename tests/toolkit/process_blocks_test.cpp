@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -199,6 +200,40 @@ TEST(AFilter, PassesOnAtOnceWithoutATimeConstant) {
     plant.feed(7);
     plant.step();
     EXPECT_EQ(plant.result(), 7);
+}
+
+TEST(AFilter, BeginsAnewAfterASourceThatWasNoNumber) {
+    for (const double none :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+        Passed plant{"Filter", "MeasuredTemperature", {{"timeConstant", "0.2"}}};
+        plant.feed(20);
+        plant.step(10);
+        plant.feed(none);
+        plant.step(10);
+        EXPECT_FALSE(std::isfinite(plant.result()));
+        EXPECT_EQ(plant.tree().at("/result").slot().quality, Quality::Bad);
+        plant.feed(20);
+        plant.step();
+        EXPECT_EQ(plant.result(), 20);
+        EXPECT_EQ(plant.tree().at("/result").slot().quality, Quality::Good);
+        plant.feed(30);
+        plant.step();
+        EXPECT_NEAR(plant.result(), 30 - 10 * std::exp(-cycleTime / 0.2), nearly);
+    }
+}
+
+TEST(ARateLimiter, GoesOnFromWhatStoodAfterASourceThatWasNoNumber) {
+    Passed plant{"RateLimiter", "MeasuredTemperature", {{"rate", "1"}}};
+    plant.step(10);
+    plant.feed(std::numeric_limits<double>::quiet_NaN());
+    plant.step(10);
+    EXPECT_EQ(plant.result(), 0);
+    EXPECT_EQ(plant.tree().at("/result").slot().quality, Quality::Bad);
+    plant.feed(50);
+    for (int cycle = 1; cycle <= 100; ++cycle) {
+        plant.step();
+        ASSERT_NEAR(plant.result(), cycle * cycleTime, nearly);
+    }
 }
 
 TEST(ABlock, TakesOneUnitForItsSourceAndItsResult) {

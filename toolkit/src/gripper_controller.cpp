@@ -111,8 +111,7 @@ void GripperController::stop() {
     wish_.width = profile_.end().position;
     time_ = rested_ = 0;
     phase_ = Phase::Moves;
-    object_ = Moving;
-    holds_ = false;
+    if (object_ != Lost) tell(Moving);
 }
 
 // What limits took away is made up for; after a loss somebody has to command anew.
@@ -146,6 +145,12 @@ void GripperController::loopEnd(const Tick&) {
     width_ = position_.get();
     wasLost_ = wasLost_ || inputLost();
     if (inputLost() || !follows(0)) aims_ = false;
+    if (!holds_) return;
+    const EventText why = whyNotHeld();
+    if (why.view().empty()) return;
+    holds_ = false;
+    object_ = Lost;
+    event(Severity::Warning, why);
 }
 
 // --- what is between the jaws -----------------------------------------------------------------
@@ -161,6 +166,17 @@ void GripperController::tell(std::int64_t object) {
     holds_ = false;
     event(Severity::Warning,
           EventText{"the work piece was lost at an opening of "} << position_.get() << " m");
+}
+
+// A gripper with a status holds it by itself, as far as anybody knows.
+EventText GripperController::whyNotHeld() const {
+    if (inputLost())
+        return "whether the work piece is still held is not known: the gripper is lost";
+    if (!follows(0))
+        return EventText{"the work piece is held no more: "} << doesNotFollow(0).view();
+    if (!status_.bound() && state() != State::Active)
+        return "the force on the work piece is kept no more: this controller is not Active";
+    return {};
 }
 
 bool GripperController::isNear() const { return std::abs(wish_.width - position_) <= nearness; }
@@ -181,7 +197,7 @@ void GripperController::watch(double seconds) {
         watchPressing(seconds);
     } else if (meetsSomething()) {
         beginToPress();
-    } else if (hasArrived() && isNear() && jaws_.seconds >= restTime) {
+    } else if (hasArrived() && isNear() && jaws_.seconds >= restTime && object_ != Lost) {
         tell(AtDemand);
     }
 }

@@ -51,7 +51,7 @@ bool TaskValues::examine(const Task& task) {
 
 bool TaskValues::examine(const Task& task, ValueChecks& checks, SlotState& state) {
     const ValueChecks::Result result = checks.examine();
-    for (const ValueChecks::Beginning& each : checks.beginnings()) report(checks, each, task);
+    for (const ValueChecks::Change& each : checks.changes()) report(checks, each, task);
     if (!result.any) return false;
     if (result.outOfRange) ++task.simplex->thread_->limits;
     if (result.notFinite && state.quality < Quality::Bad) {
@@ -61,27 +61,34 @@ bool TaskValues::examine(const Task& task, ValueChecks& checks, SlotState& state
     return true;
 }
 
-// One event for each item whose episode begins.
-void TaskValues::report(const ValueChecks& checks, const ValueChecks::Beginning& each,
+// One event for each item whose episode begins. That a value is no number has an end, too.
+void TaskValues::report(const ValueChecks& checks, const ValueChecks::Change& each,
                         const Task& task) {
+    using Of = ValueChecks::Change::Of;
     const DataItem& item = *each.item;
     EventText text{item.name};
     text << " of " << set_.structure.simplexes[checks.simplex()].path;
-    if (each.text != nullptr) {
-        text << " " << each.text << ": other agents and tools "
-             << (each.text == std::string_view{"is not UTF-8"} ? "may not show it"
-                                                               : "get what is in front of it")
-             << (item.retain ? ", and its last good value is retained" : "");
-    } else if (each.notFinite) {
-        text << " is not a number: its quality is bad";
-    } else {
-        text << " is ";
-        text.apart(each.value, boundBeyond(item, each.value));
-        if (!item.unit.empty()) text << " " << item.unit;
-        describeRange(item, text);
+    switch (each.of) {
+        case Of::Text:
+            text << " " << each.text << ": other agents and tools "
+                 << (each.text == std::string_view{"is not UTF-8"} ? "may not show it"
+                                                                   : "get what is in front of it")
+                 << (item.retain ? ", and its last good value is retained" : "");
+            break;
+        case Of::NotFinite:
+            text << " is not a number: its quality is bad";
+            break;
+        case Of::FiniteAgain:
+            text << " is a number again";
+            break;
+        case Of::OutOfRange:
+            text << " is ";
+            text.apart(each.value, boundBeyond(item, each.value));
+            if (!item.unit.empty()) text << " " << item.unit;
+            describeRange(item, text);
     }
-    set_.agent.post(*task.simplex->thread_->loop, Severity::Warning, EventKind::Limit, task.index,
-                    text);
+    const Severity severity = each.of == Of::FiniteAgain ? Severity::Info : Severity::Warning;
+    set_.agent.post(*task.simplex->thread_->loop, severity, EventKind::Limit, task.index, text);
 }
 
 }  // namespace cortex::cs

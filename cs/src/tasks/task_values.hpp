@@ -39,7 +39,7 @@ private:
     // True: a value is wrong.
     bool examine(const Task& task) CORTEX_REALTIME;
     bool examine(const Task& task, ValueChecks& checks, SlotState& state) CORTEX_REALTIME;
-    void report(const ValueChecks& checks, const ValueChecks::Beginning& each, const Task& task)
+    void report(const ValueChecks& checks, const ValueChecks::Change& each, const Task& task)
         CORTEX_REALTIME;
 
     TaskSet& set_;

@@ -62,7 +62,7 @@ ValueChecks::ValueChecks(const TypeModel& types, const TypeLayout& layout, const
     join(std::move(found.ints), runs.ints);
     runs.labels.insert(runs.labels.end(), found.labels.begin(), found.labels.end());
     if (!texts_.empty()) runs.texts.push_back({&faultsSeen_});
-    beginnings_.reserve(items_.size() + texts_.size());
+    changes_.reserve(2 * items_.size() + texts_.size());
 }
 
 void ValueChecks::add(const DataItem& item, const void* cells, ValueRuns& runs) {
@@ -104,20 +104,21 @@ void ValueChecks::addInts(Item& item, ValueRuns& runs) {
 }
 
 // True: one of its values is wrong; the first of them, or the first that is not finite, is found.
-bool ValueChecks::judge(const Item& item, Beginning& found) {
+bool ValueChecks::judge(const Item& item, Change& found) {
     bool wrong = false;
     for (std::uint32_t i = 0; i < item.item->length; ++i) {
         if (item.item->kind == Kind::Int) {
             const std::int64_t value = static_cast<const std::int64_t*>(item.cells)[i];
             const bool inRange = value >= item.minInt && value <= item.maxInt;
             if (inRange && (!item.gaps || item.item->labels.contains(value))) continue;
-            found = {item.item, static_cast<double>(value), false, nullptr};
+            found = {Change::Of::OutOfRange, item.item, static_cast<double>(value)};
             return true;
         }
         const double value = static_cast<const double*>(item.cells)[i];
         if (value >= item.min && value <= item.max) continue;
         const bool notFinite = !std::isfinite(value);
-        if (!wrong || notFinite) found = {item.item, value, notFinite, nullptr};
+        if (!wrong || notFinite)
+            found = {notFinite ? Change::Of::NotFinite : Change::Of::OutOfRange, item.item, value};
         wrong = true;
         if (notFinite) return true;
     }
@@ -126,15 +127,18 @@ bool ValueChecks::judge(const Item& item, Beginning& found) {
 
 ValueChecks::Result ValueChecks::examine() {
     Result result;
-    beginnings_.clear();
+    changes_.clear();
     for (Item& item : items_) {
-        Beginning found{};
+        Change found{};
         const bool wrong = judge(item, found);
-        if (wrong && !item.inEpisode) beginnings_.push_back(found);
+        const bool notFinite = wrong && found.of == Change::Of::NotFinite;
+        if (item.notFinite && !notFinite) changes_.push_back({Change::Of::FiniteAgain, item.item});
+        if (wrong && (!item.inEpisode || notFinite != item.notFinite)) changes_.push_back(found);
         item.inEpisode = wrong;
+        item.notFinite = notFinite;
         result.any = result.any || wrong;
-        result.notFinite = result.notFinite || (wrong && found.notFinite);
-        result.outOfRange = result.outOfRange || (wrong && !found.notFinite);
+        result.notFinite = result.notFinite || notFinite;
+        result.outOfRange = result.outOfRange || (wrong && !notFinite);
     }
     examineTexts();
     return result;
@@ -152,7 +156,7 @@ void ValueChecks::examineTexts() {
             const char* fault = textFault(cell->view());
             if (fault == nullptr) continue;
             text.told = true;
-            beginnings_.push_back({text.item, 0, false, fault});
+            changes_.push_back({Change::Of::Text, text.item, 0, fault});
         }
     }
 }

@@ -57,11 +57,11 @@ struct ValueRuns {
 // it gave the task do not pass.
 class ValueChecks {
 public:
-    // The first cycle of an episode of one item.
-    struct Beginning {
+    // The first cycle of an episode of one item, or after one in which it was no number.
+    struct Change {
+        enum class Of : std::uint8_t { OutOfRange, NotFinite, FiniteAgain, Text } of;
         const DataItem* item;
-        double value;
-        bool notFinite;
+        double value = 0;
         const char* text = nullptr;  // the fault of a text, which is told once
     };
     struct Result {
@@ -82,7 +82,7 @@ public:
     std::uint32_t simplex() const { return simplex_; }
     // What is wrong, item by item.
     Result examine() CORTEX_REALTIME;
-    std::span<const Beginning> beginnings() const { return beginnings_; }  // of the last examine()
+    std::span<const Change> changes() const { return changes_; }  // of the last examine()
 
 private:
     struct Item {
@@ -90,7 +90,7 @@ private:
         const void* cells;
         double min, max;
         std::int64_t minInt, maxInt;
-        bool inEpisode = false;
+        bool inEpisode = false, notFinite = false;
         bool gaps = false;  // only labelled numbers are right, and some between them have none
     };
     struct Text {
@@ -101,13 +101,13 @@ private:
     void add(const DataItem& item, const void* cells, ValueRuns& runs);
     void examineTexts() CORTEX_REALTIME;
     void addInts(Item& item, ValueRuns& runs);
-    static bool judge(const Item& item, Beginning& found) CORTEX_REALTIME;
+    static bool judge(const Item& item, Change& found) CORTEX_REALTIME;
 
     std::uint32_t simplex_;
     std::vector<Item> items_;
     std::vector<Text> texts_;
     std::uint64_t faultsSeen_ = 0;
-    std::vector<Beginning> beginnings_;
+    std::vector<Change> changes_;
 };
 
 }  // namespace cortex::cs

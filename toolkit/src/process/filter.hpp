@@ -19,8 +19,6 @@ private:
 
     Data<const double> source_, timeConstant_;
     ScalarOutput result_;
-    bool observes_ =
-        false;  // a demand goes on from what stands, an observation begins at its source
 };
 
 }  // namespace cortex::toolkit

@@ -2,6 +2,7 @@
 #include "process/rate_limiter.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace cortex::toolkit {
 
@@ -16,7 +17,10 @@ void RateLimiter::populate() {
 void RateLimiter::stateActive(const Tick& tick) {
     const double step = result_.step(rate_, tick.elapsedSeconds());
     const double before = result_.before();
-    const double result = std::clamp<double>(source_, before - step, before + step);
+    const bool stands = result_.observes() && std::isnan(source_.get());
+    const double result =
+        stands ? before : std::clamp<double>(source_, before - step, before + step);
+    if (stands && !inputLost()) setQuality(Quality::Bad);
     limiting_ = result != source_;
     result_.write(result);
 }

@@ -22,7 +22,10 @@ public:
         : value_{output.data<double>(item)},
           before_{output.type().role == Role::Observation ? output.data<const double>(item)
                                                           : output.accepted<double>(item)},
-          taken_{output.taken()} {}
+          taken_{output.taken()},
+          observes_{output.type().role == Role::Observation} {}
+
+    bool observes() const { return observes_; }
 
     double before() const CORTEX_REALTIME { return before_; }
     // How far it may move in this time: no way while no device takes it.
@@ -35,6 +38,7 @@ private:
     Data<double> value_;
     Data<const double> before_;
     Data<const bool> taken_;
+    bool observes_ = false;
 };
 
 }  // namespace cortex::toolkit

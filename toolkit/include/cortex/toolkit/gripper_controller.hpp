@@ -21,7 +21,7 @@ public:
     using AxisController::AxisController;
 
 protected:
-    enum Object : std::int64_t { Moving, StoppedOpening, StoppedClosing, AtDemand };
+    enum Object : std::int64_t { Moving, StoppedOpening, StoppedClosing, AtDemand, Lost };
 
     void populate() override;
     bool stateStartingUp(const Tick& tick) CORTEX_REALTIME override;
@@ -64,6 +64,7 @@ private:
     void stop() CORTEX_REALTIME;
     double approachSpeed(double force) const CORTEX_REALTIME;
     void tell(std::int64_t object) CORTEX_REALTIME;
+    EventText whyNotHeld() const CORTEX_REALTIME;  // empty: it is held
     bool hasArrived() const { return time_ >= profile_.duration(); }
     bool isNear() const CORTEX_REALTIME;
     bool hasForce() const CORTEX_REALTIME;
