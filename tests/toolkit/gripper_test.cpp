@@ -116,7 +116,7 @@ TEST_F(Slide, TellsThatAWorkPieceIsLostAndCloses) {
 
 TEST_F(Slide, TellsThatAGripEndsWithoutACommand) {
     const std::string notFollowed =
-        "the work piece is held no more: /axis does not follow: its drive says ";
+        "the force on the work piece is kept no more: /axis does not follow: its drive says ";
     rig.put(workPiece);
     struct End {
         std::string path, command, told;

@@ -93,6 +93,8 @@ bool AxisController::follows(std::size_t axis) const {
     return whyStanding(axes_[axis].status).empty();
 }
 
+bool AxisController::isBraked(std::size_t axis) const { return axes_[axis].status == brakedStatus; }
+
 std::size_t AxisController::firstThatDoesNotFollow() const {
     std::size_t axis = 0;
     while (axis < axes_.size() && follows(axis)) ++axis;

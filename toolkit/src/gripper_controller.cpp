@@ -168,14 +168,16 @@ void GripperController::tell(std::int64_t object) {
           EventText{"the work piece was lost at an opening of "} << position_.get() << " m");
 }
 
-// A gripper with a status holds it by itself, as far as anybody knows.
+// A gripper with a status holds it by itself, also by its brake, and says how long.
 EventText GripperController::whyNotHeld() const {
-    if (inputLost())
-        return "whether the work piece is still held is not known: the gripper is lost";
-    if (!follows(0))
-        return EventText{"the work piece is held no more: "} << doesNotFollow(0).view();
-    if (!status_.bound() && state() != State::Active)
-        return "the force on the work piece is kept no more: this controller is not Active";
+    constexpr std::string_view noMore = "the force on the work piece is kept no more: ",
+                               unknown = "whether the work piece is still held is not known: ";
+    if (inputLost()) return EventText{unknown} << "the gripper is lost";
+    const bool byItself = status_.bound();
+    if (!follows(0) && !(byItself && isBraked(0)))
+        return EventText{byItself ? unknown : noMore} << doesNotFollow(0).view();
+    if (!byItself && state() != State::Active)
+        return EventText{noMore} << "this controller is not Active";
     return {};
 }
 

@@ -115,7 +115,7 @@ std::string_view whyStanding(std::int64_t status) {
             return "NotHomed";
         case 6:
             return "Disabled";
-        case 7:
+        case brakedStatus:
             return "Braked";
         default:
             return {};

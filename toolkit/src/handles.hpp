@@ -93,7 +93,7 @@ std::vector<AxisOutput> axisOutputs(const std::vector<OutputSimplex>& axes);
 // What an axis says of its drive, by its item `status`, where that does not go where it is told;
 // "" otherwise.
 std::string_view whyStanding(std::int64_t status) CORTEX_REALTIME;
-inline constexpr std::int64_t unknownStatus = 0;  // it says nothing of its drive
+inline constexpr std::int64_t unknownStatus = 0, brakedStatus = 7;  // 0: it says nothing
 
 // Throws Error unless there are as many of the one as of the other, where a morphology of the
 // user's own lacks the rule's sameCount="axes", by which files are checked.

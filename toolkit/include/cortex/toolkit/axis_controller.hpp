@@ -51,6 +51,8 @@ protected:
     // Whether the drive of this axis goes where it is told; otherwise doesNotFollow() says why not.
     bool follows(std::size_t axis) const CORTEX_REALTIME;
     EventText doesNotFollow(std::size_t axis) const CORTEX_REALTIME;
+    // It does not follow either, and its brake holds it.
+    bool isBraked(std::size_t axis) const CORTEX_REALTIME;
     std::size_t firstThatDoesNotFollow() const CORTEX_REALTIME;  // axisCount(): all do
     // In a command, as inRange().
     bool allFollow(Call& call) const CORTEX_REALTIME;
