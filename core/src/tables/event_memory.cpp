@@ -123,7 +123,9 @@ void EventMemory::Kept::drop() {
     since = std::max(since, after(found->wallClock));
     const std::size_t size = sizeOf(*found);
     bytes -= size;
-    if ((shares[found->origin] -= size) == 0) shares.erase(found->origin);
+    const auto share = shares.find(found->origin);
+    share->second -= size;
+    if (share->second == 0) shares.erase(share);
     where->erase(found);
 }
 
