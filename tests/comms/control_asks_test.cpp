@@ -68,12 +68,16 @@ struct Asking : testing::Test {
         station.run();
     }
 
-    // While the test steps the robot, no faster than it says: the time of a command is in cycles.
+    // No faster than its clock: the time of a command is in cycles.
+    void stepRobot() {
+        std::this_thread::sleep_for(std::chrono::milliseconds{1});
+        robot.rig.step();
+    }
+    // While the test steps the robot.
     bool isDone(Tool& tool, std::uint64_t number) {
         LeaseClient::Answers answers;
         const bool came = comesTrue([&] {
-            std::this_thread::sleep_for(std::chrono::milliseconds{1});
-            robot.rig.step();
+            stepRobot();
             return tool.leases.poll(number, answers);
         });
         for (const auto& each : answers) EXPECT_TRUE(each.answer.done()) << each.answer.text();
@@ -223,12 +227,12 @@ TEST_F(Asking, ControlThatWasLostDoesNotComeBackByItself) {
         "control of /arm of agent robot was lost: the agent has confirmed no renewal for 2 s");
     const int then = looks;
     EXPECT_TRUE(comesTrue([&] {
-        robot.rig.step();
+        stepRobot();
         return looks > then + 1;
     }));
     EXPECT_TRUE(tool.leases.held().empty());
     EXPECT_TRUE(tool.leases.news().empty());
-    for (int cycle = 0; cycle < 10; ++cycle) robot.rig.step();
+    for (int cycle = 0; cycle < 10; ++cycle) stepRobot();
     EXPECT_TRUE(isDone(tool, tool.leases.take("/arm", {"robot"})));
     EXPECT_EQ(tool.leases.held().size(), 1U) << "taken again";
     EXPECT_TRUE(isDone(tool, tool.leases.release("/arm")));
