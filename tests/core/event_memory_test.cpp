@@ -222,11 +222,14 @@ TEST(EventMemory, LeavesThreeQuartersOfARoomToOthersThanTheSenderWhoFillsIt) {
                          const std::string& said = "") {
         return entry(2, time, said + sender + ": set(x=" + std::to_string(time) + "): Done");
     };
-    const std::string flood = "shell@hall.17-2b for Bo";
+    // Each run of a tool is a process of its own.
+    const auto flood = [](std::int64_t run) {
+        return "cortex@hall.b." + std::to_string(run) + "-2b for Bo";
+    };
     for (std::int64_t i = 1; i <= 150; ++i)
         memory.keep(from("desk for p" + std::to_string(i % 10), i));
     for (std::int64_t i = 1000; i < 3000; ++i) {
-        memory.keep(from(flood, i, i % 2 == 0 ? "7 times within a second: " : ""));
+        memory.keep(from(flood(i), i, i % 2 == 0 ? "7 times within a second: " : ""));
     }
     EXPECT_EQ(memory.page(0, 0, 999).events.size(), 150U);
     EXPECT_GE(memory.page(0, 2990).events.size(), 10U) << "the newest of the flood";

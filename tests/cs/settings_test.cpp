@@ -229,13 +229,14 @@ TEST_F(SettingsOfADemand, AreRefusedWhileItsWriterLacksAnInput) {
     EXPECT_EQ(cluster.number("/d", "speed"), 0);
 }
 
-TEST_F(SettingsOfADemand, GoOutWhileItsWriterIsActive) {
+TEST_F(SettingsOfADemand, AreRefusedWhileItsWriterIsActive) {
     start();
     startUp();
 
-    EXPECT_EQ(setSpeed(5), "Done");
-    cluster.step(5);
-    EXPECT_EQ(cluster.number("/d", "speed"), 5);
+    EXPECT_EQ(setSpeed(5),
+              "Rejected (state): /d is a demand that /a writes, which is Active; a set would not "
+              "act");
+    EXPECT_EQ(cluster.number("/d", "speed"), 0);
 }
 
 TEST_F(SettingsOfADemand, GoOutAtRestWhereTheItemIsItsWritersThen) {

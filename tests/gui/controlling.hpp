@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "gui/taking.hpp"
 #include "gui/window_fixture.hpp"
 #include "views/command_card.hpp"
 #include "views/life_cycle_bar.hpp"
@@ -17,12 +18,7 @@ namespace cortex::test {
 class Controlling : public Window {
 protected:
     using Window::Window;
-    bool takes(const std::string& prefix) {
-        window.control().choose();
-        window.control().panel()->choose(prefix);
-        window.control().panel()->takeButton().click();
-        return comes([&] { return window.control().prefix() == prefix; });
-    }
+    bool takes(const std::string& prefix) { return takesControl(window, session, prefix); }
     QPushButton& button(const QString& text) {
         const auto* bar = window.current()->findChild<LifeCycleBar*>();
         for (auto* each : bar->findChildren<QPushButton*>()) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cli/live_agent.hpp"
+#include "gui/taking.hpp"
 #include "gui/window_fixture.hpp"
 #include "motion/axis_rows.hpp"
 #include "motion/axis_view.hpp"
@@ -114,12 +115,7 @@ protected:
         window.resize(1280, 800);
         window.show();
     }
-    bool takes(const std::string& prefix) {
-        window.control().choose();
-        window.control().panel()->choose(prefix);
-        window.control().panel()->takeButton().click();
-        return comes([&] { return window.control().prefix() == prefix; });
-    }
+    bool takes(const std::string& prefix) { return takesControl(window, session, prefix); }
     // The view of this controller, which is Active.
     void opens(const std::string& controller) {
         ASSERT_TRUE(comes([this] { return window.ready(); }));

@@ -308,6 +308,19 @@ TEST(GripperController, DoesNothingForACommandThatCameWhileItsAxisWasLost) {
     EXPECT_EQ(rig.get<double>("/demand", "position"), stands);
 }
 
+TEST(GripperController, SaysAgainWhatItHoldsOnceItsAxisIsBackAfterALoss) {
+    SoftSlide rig;
+    rig.cluster().send("/it", "grip", {{"force", 50.0}});
+    rig.go(4000);
+    ASSERT_EQ(rig.get<std::int64_t>("/it", "object"), GripperRig::StoppedClosing);
+    rig.tree().at("/axis").slot().quality = Quality::Lost;
+    rig.go(5);
+    EXPECT_EQ(rig.get<std::int64_t>("/it", "object"), GripperRig::Lost);
+    rig.tree().at("/axis").slot().quality = Quality::Good;
+    rig.go(2000);
+    EXPECT_EQ(rig.get<std::int64_t>("/it", "object"), GripperRig::StoppedClosing);
+}
+
 struct Drive {
     const char* ratedEffort;  // N; 100 of them have an inertia of 1 kg
     int period;               // ms

@@ -127,6 +127,10 @@ void GripperController::move(const Tick& tick) {
         stop();
         direction_ = 0;
     }
+    if (phase_ == Phase::Holds && wasLost_) {  // it presses on, and looks anew at what is there
+        phase_ = Phase::Presses;
+        pressure_ = {pushed(), 0};
+    }
     wasLost_ = false;
     if (phase_ == Phase::Moves) {
         if (!hasArrived()) time_ += seconds;

@@ -30,13 +30,19 @@ std::optional<EventText> safeRefusal(const Structure& structure, const Tables& t
     }
     const std::uint32_t writer = info.writers.front();
     const auto state = stateOf(structure, tables, writer);
+    if (!state || structure.simplexes[writer].remote) return {};
+    const std::string& by = structure.simplexes[writer].path;
     const bool mayBeSafe = item.safe.kind != Safe::Kind::None && item.atRest != AtRest::Writer;
-    if (!mayBeSafe || !state || structure.simplexes[writer].remote) return {};
-    why << " is a demand that is safe: its writer " << structure.simplexes[writer].path;
-    if (*state == State::Standby || *state == State::Fault)
-        return why << " is in " << name(*state) << inVain;
-    if (standsByLoss(*tables.live(simplex).state, *tables.live(writer).state, writer))
+    const bool rests = *state == State::Standby || *state == State::Fault;
+    const bool lacks =
+        standsByLoss(*tables.live(simplex).state, *tables.live(writer).state, writer);
+    if (mayBeSafe && (rests || lacks)) {
+        why << " is a demand that is safe: its writer " << by;
+        if (rests) return why << " is in " << name(*state) << inVain;
         return why << " has lost an input" << inVain;
+    }
+    if (*state == State::Active)
+        return why << " is a demand that " << by << " writes, which is Active" << inVain;
     return {};
 }
 

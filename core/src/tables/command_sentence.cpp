@@ -51,7 +51,14 @@ void takeLatency(CommandSentence& sentence) {
 
 }  // namespace
 
+std::string_view withoutTimes(std::string_view text) {
+    const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
+    const bool counts = digits > 0 && text.substr(digits).starts_with(timesWithinASecond);
+    return counts ? text.substr(digits + timesWithinASecond.size()) : text;
+}
+
 std::optional<CommandSentence> commandSentence(std::string_view text) {
+    text = withoutTimes(text);
     const std::size_t name = findCommand(text);
     if (name == std::string_view::npos) return std::nullopt;
     CommandSentence sentence;

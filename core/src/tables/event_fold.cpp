@@ -2,12 +2,9 @@
 #include "cortex/core/event_fold.hpp"
 
 #include "cortex/core/command_sentence.hpp"
-#include "cortex/core/value.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -43,58 +40,18 @@ bool mayFold(const Event& event) {
     return kind && event.severity != Severity::Error;
 }
 
-// Without its numbers: two that missed 3 and 5 ticks are the same event again.
-std::string wordsOf(std::string_view text) {
-    std::string words;
-    for (const char each : text) {
-        if (std::isdigit(static_cast<unsigned char>(each)) == 0) words += each;
-    }
-    return words;
-}
-
-// A number among arguments, or what stands between two of them.
-struct Piece {
-    std::string_view text;
-    std::optional<double> number;
-};
-
-// "axis=1, speed=-0.5, tool=\"T4\"": 1 and -0.5 are numbers, what stands in quotes is none.
-std::vector<Piece> piecesOf(std::string_view arguments) {
-    constexpr std::string_view separators = " ,=()\"";
-    std::vector<Piece> pieces;
-    bool quoted = false;
-    while (!arguments.empty()) {
-        std::size_t size = std::min(arguments.find_first_of(separators), arguments.size());
-        std::optional<double> number;
-        if (size > 0 && !quoted) number = toFloat(arguments.substr(0, size));
-        if (number && !std::isfinite(*number)) number.reset();
-        if (size == 0) {
-            if (arguments.front() == '"') quoted = !quoted;
-            size = 1;
-        }
-        pieces.push_back({arguments.substr(0, size), number});
-        arguments.remove_prefix(size);
-    }
-    return pieces;
-}
-
-std::string skeletonOf(std::string_view arguments) {
-    std::string text;
-    for (const Piece& each : piecesOf(arguments)) text += each.number ? "#" : each.text;
-    return text;
-}
-
 }  // namespace
 
 std::string EventFold::keyOf(const Event& event) const {
     const auto sentence = sentenceOf(event);
-    if (!sentence) return wordsOf(event.text.view());
+    // Two that missed 3 and 5 ticks are the same event again.
+    if (!sentence) return withoutDigits(event.text.view());
     const bool repeated = isRepeated_(event.simplex, sentence->command);
     std::string key{sentence->sender};
     key.append(": ").append(sentence->command).append("(");
-    key += repeated ? skeletonOf(sentence->arguments) : std::string{sentence->arguments};
+    key += repeated ? numberedText(sentence->arguments).words : std::string{sentence->arguments};
     key += "): ";
-    return key + (repeated ? wordsOf(sentence->outcome) : std::string{sentence->outcome});
+    return key + (repeated ? withoutDigits(sentence->outcome) : std::string{sentence->outcome});
 }
 
 void EventFold::take(const Event& event, std::int64_t now) {
@@ -113,15 +70,9 @@ void EventFold::count(Folded& folded, const Event& event) const {
     const auto sentence = sentenceOf(event);
     if (!sentence || !isRepeated_(event.simplex, sentence->command)) return;
     std::size_t place = 0;
-    for (const Piece& each : piecesOf(sentence->arguments)) {
-        if (!each.number) continue;
-        const double number = *each.number;
-        const std::string text{each.text};
-        if (place == folded.ranges.size()) folded.ranges.push_back({number, number, text, text});
-        Range& range = folded.ranges[place++];
-        if (number < range.least) std::tie(range.least, range.leastText) = std::tie(number, text);
-        if (number > range.greatest)
-            std::tie(range.greatest, range.greatestText) = std::tie(number, text);
+    for (const std::string& each : numberedText(sentence->arguments).numbers) {
+        if (place == folded.ranges.size()) folded.ranges.emplace_back(each);
+        folded.ranges[place++].take(each);
     }
 }
 
@@ -159,7 +110,7 @@ void EventFold::tell(const Folded& folded) {
     if (late > 0 && late < 2 * foldedFor) event.wallClock = newest_;
     if (folded.count == 1) return handOn(event);
     EventText times;
-    times << folded.count << " times within a second: ";
+    times << folded.count << timesWithinASecond;
     const std::string ranged = withRanges(folded);
     const bool fits = times.view().size() + ranged.size() <= EventText::capacity;
     event.text = times;
@@ -175,12 +126,14 @@ std::string EventFold::withRanges(const Folded& folded) {
     const auto begin = static_cast<std::size_t>(arguments.data() - last.data());
     std::string text{last.substr(0, begin)};
     std::size_t place = 0;
-    for (const Piece& each : piecesOf(arguments)) {
-        text += each.text;
-        if (!each.number) continue;
-        const Range& range = folded.ranges[place++];
-        if (range.least < range.greatest)
-            text += " (" + range.leastText + " to " + range.greatestText + ")";
+    for (const char each : numberedText(arguments).words) {
+        if (each != numberSign) {
+            text += each;
+            continue;
+        }
+        const NumberRange& range = folded.ranges[place++];
+        text += range.last;
+        if (!range.isOne()) text += " (" + range.least + " to " + range.greatest + ")";
     }
     return text.append(last.substr(begin + arguments.size()));
 }

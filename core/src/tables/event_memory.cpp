@@ -2,11 +2,10 @@
 #include "cortex/core/event_memory.hpp"
 
 #include "cortex/core/command_sentence.hpp"
+#include "cortex/core/numbered_text.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <functional>
-#include <iterator>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -30,24 +29,24 @@ std::optional<std::size_t> shelfOf(EventKind kind, Severity severity) {
     return {};
 }
 
-// The sender of a command, also of many that are told at once; else the path and the words, which
-// are the same again where a number is another one.
+// "cortex@desk for Ada" of "cortex@desk.4711-5e1f0a for Ada": each run of a tool is a new process.
+std::string withoutProcess(std::string_view sender) {
+    const std::size_t host = std::min(sender.find('@'), sender.size());
+    const std::size_t end = std::min(sender.find(' ', host), sender.size());
+    const std::size_t process = std::min(sender.substr(0, end).rfind('.'), end);
+    if (process < host) return std::string{sender};
+    return std::string{sender.substr(0, process)}.append(sender.substr(end));
+}
+
+// Who sent a command; else the path and the words, which are the same again where a number is
+// another one.
 std::size_t originOf(const KeptEvent& event) {
-    constexpr std::string_view times = " times within a second: ";
-    std::string_view text = event.text;
-    if (const auto at = text.find(times); at != std::string_view::npos)
-        text.remove_prefix(at + times.size());
     const bool isCommand = event.kind == EventKind::Command || event.kind == EventKind::Control ||
                            event.kind == EventKind::Refusal;
-    if (isCommand) {
-        if (const auto sentence = commandSentence(text))
-            return std::hash<std::string_view>{}(sentence->sender);
-    }
-    std::string origin = event.path + '\n';
-    std::ranges::copy_if(text, std::back_inserter(origin), [](char each) {
-        return std::isdigit(static_cast<unsigned char>(each)) == 0;
-    });
-    return std::hash<std::string>{}(origin);
+    const auto sentence = isCommand ? commandSentence(event.text) : std::nullopt;
+    return std::hash<std::string>{}(
+        sentence ? withoutProcess(sentence->sender)
+                 : event.path + '\n' + withoutDigits(withoutTimes(event.text)));
 }
 
 // What was dropped may have the last time there is.

@@ -291,6 +291,9 @@ void ClusterCS::startAll() {
     self.loop = std::make_unique<ClusterLoop>(*self.agent, *self.trigger, self.options,
                                               std::move(schedule), self.startOrder(graph, order),
                                               self.heartbeats, std::move(realtimeReport));
+    Report inVain;
+    GivenValues{*self.agent}.checkDemands(inVain);
+    if (!inVain.ok()) refuse(std::move(inVain));
     self.loop->testWith(self.test);
     self.loop->rescheduleBy([&self, threads](std::span<const double> costs) {
         return makeSchedule(self.graph(), {threads, self.test.chunkSize, costs, false});

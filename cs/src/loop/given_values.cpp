@@ -51,6 +51,34 @@ void GivenValues::check(std::uint32_t simplex, Report& report) const {
     }
 }
 
+void GivenValues::checkDemands(Report& report) const {
+    const Structure& structure = agent_.structure();
+    for (const auto& [simplex, values] : given_) {
+        const SimplexInfo& info = structure.simplexes[simplex];
+        if (info.role != Role::Modification) continue;
+        const auto edge = std::ranges::find_if(structure.edges, [&](const Edge& each) {
+            return each.target == simplex && each.rule->direction == Direction::Output;
+        });
+        if (edge == structure.edges.end()) continue;
+        const Slice out =
+            agent_.tables().edge(static_cast<std::uint32_t>(edge - structure.edges.begin()));
+        for (const InitialValue* each : values) {
+            const DataItem& item = *each->item->item;
+            if (item.safe.kind == Safe::Kind::None || item.retain) continue;
+            const Value value = loadValue(item, out.at(item.kind, each->item->offset));
+            const Value given = wholeValue(*each);
+            if (value == given) continue;
+            report.error(info.path, finding::startValueInVain,
+                         placeOf(agent_.simplex(simplex), item.name),
+                         item.name + " is given as " + toText(given) + ", and begins at " +
+                             toText(value) + ", where the demand is safe",
+                         item.safe.kind == Safe::Kind::Given
+                             ? "leave it out"
+                             : "leave it out, or give it to the simplex that observes the demand");
+        }
+    }
+}
+
 void GivenValues::compare(std::uint32_t writer, std::uint32_t simplex, const Slice& written,
                           Report& report) const {
     const auto found = given_.find(simplex);

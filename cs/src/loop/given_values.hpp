@@ -19,6 +19,10 @@ public:
     // its own and of what it writes.
     void check(std::uint32_t simplex, Report& report) const;
 
+    // Once the tasks are made: an error for each value of a demand that never acts, as the demand
+    // begins at its safe value. Retained values are not looked at: they come with each start.
+    void checkDemands(Report& report) const;
+
 private:
     void compare(std::uint32_t writer, std::uint32_t simplex, const Slice& written,
                  Report& report) const;

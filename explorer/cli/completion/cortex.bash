@@ -20,7 +20,7 @@ _cortex() {
         conform)
             options="--move --speed --home --grip --seconds --junit --force --take --for $network"
             ;;
-        restore) options="--dry-run --take --for $network" ;;
+        restore) options="--dry-run --what-is-good --take --for $network" ;;
         watch) options="--rate --count --csv --labels $network" ;;
         events)
             options="--follow --since --until --before-fault --seconds --kind --severity --csv"

@@ -38,6 +38,10 @@ std::string savedText(const std::vector<SavedSimplex>& simplexes, const std::str
     for (const SavedSimplex& simplex : simplexes) {
         text += "  <simplex path=\"" + simplex.path + "\" type=\"" + simplex.type + "\">\n";
         for (const SavedItem& item : simplex.items) {
+            if (!item.wrong.empty()) {
+                text += "    <!-- not saved: " + xmlComment(printable(item.wrong)) + " -->\n";
+                continue;
+            }
             text += "    " + setElement(item.name, item.value);
             if (!item.note.empty()) text += "  <!-- " + xmlComment(item.note) + " -->";
             text += '\n';
@@ -94,7 +98,7 @@ std::vector<SavedSimplex> readSaved(const fs::path& file) {
         SavedSimplex& simplex = simplexes.emplace_back();
         simplex = {entry.path, entry.type, {}, entry.place};
         for (const auto& setting : entry.settings) {
-            simplex.items.push_back({setting.data, setting.value, "", setting.place});
+            simplex.items.push_back({setting.data, setting.value, "", "", setting.place});
         }
     }
     return simplexes;

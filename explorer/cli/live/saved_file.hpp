@@ -18,6 +18,7 @@ struct SavedItem {
     std::string name;
     std::string value;  // as in XML, before escaping
     std::string note;   // unit and range, for people
+    std::string wrong;  // why nobody can set it: then it is a comment; empty: it is good
     Place place;        // where it was read
 };
 struct SavedSimplex {

@@ -233,14 +233,17 @@ void addSave(LiveVerbs& verbs) {
     verb = verbs.add(
         "restore", "Set the items that a file of 'save' has, showing what changes",
         R"(Where one item of the file cannot be set, all that are wrong are listed and nothing is changed; take
-them out of the file. Then the items of each simplex are set together. Exit code 1: something was
-wrong or refused.
+them out of the file, or set the rest with --what-is-good. Then the items of each simplex are set
+together. Exit code 1: something was wrong or refused.
 Examples:
   cortex restore tuned.xml --dry-run
+  cortex restore tuned.xml --what-is-good
   cortex restore tuned.xml)",
         restore, restoreItems);
     verb->add_option("FILE", restore->file, "File that 'save' wrote")->required()->type_name("");
     CLI::Option* dry = verb->add_flag("--dry-run", restore->dryRun, "Only show what would change");
+    verb->add_flag("--what-is-good", restore->whatIsGood,
+                   "Set the rest where some of the file cannot be set");
     addCommanding(*verb, *restore)->excludes(dry);
 }
 

@@ -79,7 +79,7 @@ Exit saveItems(const SaveOptions& options);
 
 struct RestoreOptions : CommandingOptions {
     std::string file;
-    bool dryRun = false;
+    bool dryRun = false, whatIsGood = false;
 };
 Exit restoreItems(const RestoreOptions& options);
 

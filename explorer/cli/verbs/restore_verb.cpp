@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cortex/core/argument_checks.hpp"
 #include "cortex/core/command_exchange.hpp"
-#include "cortex/core/error.hpp"
 #include "cortex/core/labelled_value.hpp"
 #include "cortex/core/nearest_names.hpp"
 #include "cortex/core/record.hpp"
 #include "cortex/core/simplex_tree.hpp"
 
 #include "live/control.hpp"
+#include "live/judged_value.hpp"
 #include "live/live_values.hpp"
 #include "live/saved_file.hpp"
 #include "live/set_parts.hpp"
@@ -50,26 +49,6 @@ struct Plan {
     std::size_t same = 0;  // items
     Report report;
 };
-
-// Why the item cannot have this value; "" if it can.
-std::string refusal(const CommandTable& table, const DataItem& item, const Value& value) {
-    const std::uint32_t set = table.find("set");
-    const CommandTable::Entry& entry = table.entries[set];
-    std::vector<std::uint64_t> record((entry.request.size + 7) / 8);
-    std::byte* octets = reinterpret_cast<std::byte*>(record.data());
-    try {
-        encodeRecord(table, set, {{item.name, value}}, octets);
-    } catch (const Error& error) {
-        return error.what();
-    }
-    for (const ArgumentCheck& check : entry.checks) {
-        std::optional<EventText> why;
-        if (check.item->name == item.name && !checkArgument(check, octets, why)) {
-            return std::string{why->view()};
-        }
-    }
-    return "";
-}
 
 class Planner {
 public:
@@ -136,18 +115,15 @@ private:
                          nearestNames(saved.name, valid));
         }
         const DataItem& item = *layout->item;
-        std::string why;
-        const auto value = parseItemValue(item, saved.value, why);
-        if (!value) return wrong("malformed-value", "'" + saved.name + "': " + why);
-        why = refusal(table, item, *value);
-        if (!why.empty()) return wrong("out-of-range", why);
+        const auto [value, rule, why] = judgedValue(table, item, saved.value);
+        if (!why.empty()) return wrong(rule, why);
         const Value now = image.value(simplex.index, *layout);
-        if (toText(now) == toText(*value)) {  // 0 and -0 are two values
+        if (toText(now) == toText(value)) {  // 0 and -0 are two values
             ++plan_.same;
             return;
         }
-        plan_.differences.push_back({change.path, &item, now, *value});
-        change.arguments[item.name] = *value;
+        plan_.differences.push_back({change.path, &item, now, value});
+        change.arguments[item.name] = value;
     }
 
     Live& live_;
@@ -290,12 +266,13 @@ Exit restoreItems(const RestoreOptions& options) {
     Plan plan;
     Planner planner{live, plan};
     for (const SavedSimplex& each : saved) planner.add(each);
-    const bool good = plan.report.ok();
-    const bool applies = good && !options.dryRun;
-    if (!options.json && (good || options.dryRun)) printDifferences(plan);
+    const bool good = plan.report.ok(), acts = good || options.whatIsGood;
+    const bool applies = acts && !options.dryRun;
+    if (!options.json && (acts || options.dryRun)) printDifferences(plan);
     std::list<BriefControl> control;
     if (applies && options.take) control = controlOf(live, plan);
-    Exit exit = applies ? apply(live, plan) : good ? Yes : No;
+    Exit exit = applies ? apply(live, plan) : Yes;
+    if (!good) exit = No;
     if (applies && tellWhoStartedAnew(live, plan) != Yes) exit = No;
     if (options.json) {
         print(planJson(plan, applies));
@@ -303,7 +280,10 @@ Exit restoreItems(const RestoreOptions& options) {
     }
     if (plan.same > 0) std::cout << plural(plan.same, "item") << " as in the file\n";
     printFindings(plan.report, Stream::Errors);
-    if (!good) std::cerr << "cortex: nothing was changed\n";
+    if (!acts) {
+        std::cerr << "cortex: nothing was changed; take these lines out of the file, or set the "
+                     "rest with --what-is-good\n";
+    }
     if (applies && !plan.changes.empty()) printResults(plan);
     return exit;
 }

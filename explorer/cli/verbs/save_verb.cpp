@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "live/judged_value.hpp"
 #include "live/live_values.hpp"
 #include "live/saved_file.hpp"
 #include "verbs/live_verbs.hpp"
@@ -25,10 +26,13 @@ std::string noteOf(const DataItem& item, const Value& value) {
 
 SavedSimplex savedOf(const FoundSimplex& simplex, const Image& image) {
     SavedSimplex saved{simplex.info().path, simplex.type().name, {}, {}};
+    const CommandTable table = commandTable(simplex.type());
     for (const ItemLayout& each : simplex.info().layout->items) {
         if (each.item->settable.empty()) continue;
         const Value value = image.value(simplex.index, each);
-        saved.items.push_back({each.item->name, toText(value), noteOf(*each.item, value), {}});
+        const std::string text = toText(value);
+        saved.items.push_back({each.item->name, text, noteOf(*each.item, value),
+                               judgedValue(table, *each.item, text).why, {}});
     }
     return saved;
 }
@@ -40,7 +44,8 @@ bool hasSettable(const FoundSimplex& simplex) {
 
 }  // namespace
 
-// A file is written if anything came; what did not is listed, with exit code 3. Of a path that
+// A file is written if anything came; what did not is listed, with exit code 3, and so is what
+// nobody could set again. Of a path that
 // several agents have, the values of its owner.
 Exit saveItems(const SaveOptions& options) {
     checkPrefix(options.prefix);
@@ -51,6 +56,7 @@ Exit saveItems(const SaveOptions& options) {
     live.waitForValues();
     std::vector<SavedSimplex> saved;
     std::vector<std::string> missing;
+    Json wrong = Json::array();
     std::size_t items = 0;
     live.printWarnings();
     for (const FoundSimplex& each : live.below(options.prefix)) {
@@ -64,7 +70,13 @@ Exit saveItems(const SaveOptions& options) {
             continue;
         }
         saved.push_back(savedOf(each, *image));
-        items += saved.back().items.size();
+        for (const SavedItem& item : saved.back().items) {
+            if (item.wrong.empty())
+                ++items;
+            else
+                wrong.push_back(
+                    {{"path", each.info().path}, {"item", item.name}, {"why", item.wrong}});
+        }
     }
     const std::string lacking = live.incomplete();
     if (saved.empty() && missing.empty() && lacking.empty()) {
@@ -80,6 +92,7 @@ Exit saveItems(const SaveOptions& options) {
                {"simplexes", saved.size()},
                {"items", items},
                {"missing", missing},
+               {"wrong", wrong},
                {"incomplete", lacking}});
     } else {
         std::cout << "saved " << plural(items, "item") << " of " << plural(saved.size(), "simplex")
@@ -87,9 +100,15 @@ Exit saveItems(const SaveOptions& options) {
         for (const std::string& each : missing) {
             std::cerr << "cortex: the values of " << each << " did not come\n";
         }
+        for (const Json& each : wrong) {
+            std::cerr << "cortex: "
+                      << printable(each["path"].get<std::string>() + " is not saved whole: " +
+                                   each["why"].get<std::string>())
+                      << '\n';
+        }
         if (!lacking.empty()) std::cerr << "cortex: " << printable(lacking) << '\n';
     }
-    return missing.empty() && lacking.empty() ? Yes : NotFound;
+    return missing.empty() && wrong.empty() && lacking.empty() ? Yes : NotFound;
 }
 
 }  // namespace cortex::cli

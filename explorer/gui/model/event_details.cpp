@@ -84,9 +84,9 @@ EventDetails detailsOf(const EventRow& row) {
     }
     addTimes(details, row);
     for (const NumberRange& each : row.numbers) {
-        if (each.least == each.greatest) continue;
+        if (each.isOne()) continue;
         details.emplace_back(detail("value"),
-                             detail("%1, last %2").arg(each.text(), plainText(each.last)));
+                             detail("%1, last %2").arg(rangeText(each), plainText(each.last)));
     }
     addCommand(details, first);
     return details;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cortex/core/numbered_text.hpp"
+
 #include <QString>
 #include <string>
 #include <string_view>
@@ -14,7 +16,6 @@ bool tellsOfCommand(const std::string& kind);
 
 // Who sent a command, and on whose behalf. It refers to the text.
 struct SenderParts {
-    std::string_view before;  // "2 times within a second: "
     std::string_view tool;    // "cortex@desk.4711-5e1f0a"
     std::string_view person;  // "alice"; empty: the tool said none
 };
@@ -26,23 +27,7 @@ std::string personFirst(const std::string& text);
 // "alice: jog(…): Done" of the same, where there is little room: the tool stands elsewhere.
 std::string personAlone(const std::string& text);
 
-// "position limited from # to # rad", and the numbers as they were written. What belongs to a name
-// (/drives/4, A4, 0x8611, 12:04) is no number.
-struct NumberedText {
-    std::string words;
-    std::vector<std::string> numbers;
-};
-NumberedText numberedText(const std::string& text);
-
-// What the numbers at one place of a text were.
-struct NumberRange {
-    std::string first, last;
-    double least = 0, greatest = 0;
-
-    explicit NumberRange(const std::string& number);
-    void take(const std::string& number);
-    QString text() const;  // "−2.1187 … −2.0951"; one that never changed as it was written
-};
+QString rangeText(const NumberRange& range);  // "−2.1187 … −2.0951"; one value as it was written
 
 // The words with those ranges in their places.
 QString foldedText(const std::string& words, const std::vector<NumberRange>& ranges);

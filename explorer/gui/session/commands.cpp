@@ -15,12 +15,8 @@ namespace cortex::gui {
 
 namespace {
 
-constexpr std::string_view folded = " times within a second: ";
-
-// "tool", "tool@desk", "tool for Ada", "2 times within a second: tool for Ada"
+// "tool", "tool@desk", "tool for Ada"
 bool isFrom(std::string_view sender, std::string_view self) {
-    if (const auto at = sender.find(folded); at != std::string_view::npos)
-        sender.remove_prefix(at + folded.size());
     if (!sender.starts_with(self)) return false;
     sender.remove_prefix(self.size());
     return sender.empty() || sender.front() == '@' || sender.front() == ' ';

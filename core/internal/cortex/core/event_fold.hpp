@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cortex/core/event.hpp"
+#include "cortex/core/numbered_text.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -33,15 +34,11 @@ public:
 
 private:
     using Key = std::tuple<std::uint32_t, EventKind, Severity, std::string>;
-    struct Range {
-        double least = 0, greatest = 0;
-        std::string leastText, greatestText;
-    };
     struct Folded {
         std::int64_t since = 0;
         std::int64_t count = 0;  // that were not handed on
         Event last;
-        std::vector<Range> ranges;  // of the numbers of a command that is repeated
+        std::vector<NumberRange> ranges;  // of the numbers of a command that is repeated
     };
     std::string keyOf(const Event& event) const;
     void count(Folded& folded, const Event& event) const;

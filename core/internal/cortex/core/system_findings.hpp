@@ -21,6 +21,7 @@ inline constexpr char createdPath[] = "created-path";
 inline constexpr char noClass[] = "no-class";
 inline constexpr char populate[] = "populate";
 inline constexpr char startValueOverwritten[] = "start-value-overwritten";
+inline constexpr char startValueInVain[] = "start-value-in-vain";
 inline constexpr char settingsRefused[] = "settings-refused";
 inline constexpr char noHandler[] = "no-handler";
 inline constexpr char argumentNotSet[] = "argument-not-set";
