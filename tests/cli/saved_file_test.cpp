@@ -2,6 +2,7 @@
 // What `save` writes of any value, `restore` takes.
 #include "live/saved_file.hpp"
 
+#include "cortex/core/labelled_value.hpp"
 #include "cortex/core/model_files.hpp"
 #include "cortex/core/record.hpp"
 
@@ -45,13 +46,17 @@ TEST(SavedFile, HasOnlyWhatCanBeSetAgainBitByBit) {
     Chance chance{7};
     const test::ModelFolder folder;
     std::size_t kept = 0, left = 0;
-    for (int model = 0; model < 20; ++model) {
+    for (int model = 0; model < 5; ++model) {
         const test::RandomModel random{chance, 2, 1};
-        const std::array files{folder.write("types.xml", random.ontology())};
+        const std::array files{
+            folder.write("types.xml",
+                         "<ontology name='t' version='1.0'><include file='base.xml'/>"
+                         "<type name='Carrier' extends='Active'/>\n" +
+                             random.ontology() + "</ontology>")};
         Report report;
         const ModelFiles read = readModelFiles(files, report);
         ASSERT_TRUE(report.ok()) << report.text();
-        for (int file = 0; file < 50; ++file) {
+        for (int file = 0; file < 40; ++file) {
             std::vector<SavedSimplex> simplexes;
             std::map<std::string, Value> good;
             for (const auto& [name, type] : read.types.types()) {
@@ -70,8 +75,11 @@ TEST(SavedFile, HasOnlyWhatCanBeSetAgainBitByBit) {
                 const Type& type = *read.types.find(simplex.type);
                 const CommandTable table = commandTable(type);
                 for (const SavedItem& item : simplex.items) {
-                    const JudgedValue back = judgedValue(table, *type.findData(item.name), item.value);
+                    const JudgedValue back =
+                        judgedValue(table, *type.findData(item.name), item.value);
                     ASSERT_EQ(back.why, "") << simplex.path << '.' << item.name;
+                    ASSERT_EQ(valueError(*type.findData(item.name), back.value), "")
+                        << "an agent that starts with it judges it so";
                     const auto wanted = good.extract(simplex.path + "." + item.name);
                     ASSERT_TRUE(wanted) << simplex.path << '.' << item.name;
                     ASSERT_EQ(test::difference(wanted.mapped(), back.value), "");
@@ -81,7 +89,7 @@ TEST(SavedFile, HasOnlyWhatCanBeSetAgainBitByBit) {
         }
     }
     EXPECT_GT(kept, left);
-    EXPECT_GT(left, 1000U);
+    EXPECT_GT(left, 200U);
 }
 
 }  // namespace

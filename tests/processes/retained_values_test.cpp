@@ -113,6 +113,33 @@ TEST_F(RetainedValues, LoseAtMostTheLastSecondWhenTheAgentIsKilled) {
     }
 }
 
+TEST_F(RetainedValues, BelongToTheProcessThatKeepsThem) {
+    AgentProcess agent{folder, system, options()};
+    ASSERT_TRUE(station.waitFor([&] { return retainedCount() > 0; })) << agent.output();
+    const auto trial = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {system.string(), "--offline", "--seconds", "0.3", "--set",
+                                   "/counter.gain=5", "--set", "/counter.count=1000000"});
+        return runProgram(CORTEX_BINARY_DIR "/bin/cortex-agent", options(more));
+    };
+
+    const Outcome second = trial({});
+    EXPECT_EQ(second.exit, 5) << second.output;
+    EXPECT_TRUE(contains(second.errors, retained().string() + ": process " +
+                                            std::to_string(agent.pid()) + " (cortex-agent "))
+        << second.errors;
+    const std::string memory = textOf(folder.path() / "plant.memory");
+    const Outcome without = trial({"--no-devices"});
+    EXPECT_EQ(without.exit, 0) << without.errors;
+    EXPECT_TRUE(contains(without.output, "/counter.count 0 -> ")) << "it reads them";
+    EXPECT_EQ(textOf(folder.path() / "plant.memory"), memory);
+
+    EXPECT_EQ(agent.endInOrder(), 0);
+    EXPECT_LT(retainedCount(), 1'000'000);
+    EXPECT_TRUE(contains(retainedText(), "data=\"gain\" value=\"1\"")) << retainedText();
+    EXPECT_EQ(trial({}).exit, 0) << "nobody has them now";
+    EXPECT_TRUE(contains(retainedText(), "data=\"gain\" value=\"5\"")) << retainedText();
+}
+
 TEST_F(RetainedValues, KeepTheirLastGoodValueWhereTheNewOneIsNoNumber) {
     AgentProcess agent{folder, system, options()};
     const std::string good = "data=\"share\" value=\"0.25\"";

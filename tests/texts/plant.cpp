@@ -15,8 +15,6 @@ namespace {
 
 using nlohmann::json;
 
-const std::vector<std::string> withCarrier{"--plugin", CORTEX_BINARY_DIR "/lib/plugins/carrier.so"};
-
 // "": each of `expected` is found so, by find(path, item).
 template <class Find>
 std::string differences(const AllValues& expected, Find find) {

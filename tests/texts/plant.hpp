@@ -17,6 +17,10 @@
 
 namespace cortex::test {
 
+// What an agent needs for these types.
+inline const std::vector<std::string> withCarrier{"--plugin",
+                                                  CORTEX_BINARY_DIR "/lib/plugins/carrier.so"};
+
 // Files with these types, which extend `Carrier`: it copies items, and its command `echo` answers
 // what it is asked.
 void writeTypes(const ModelFolder& folder, const std::string& types);

@@ -117,6 +117,51 @@ TEST(TextToText, IsTheSameForTenThousandValuesOfEachKind) {
 }
 
 // The attributes of <set> for item `x` of these kinds, which no value can be.
+// /sink has copies of what /source has, and 500 is out of its range.
+TEST(TextToText, WhatNobodyCanSetIsNamedAndTheRestIsRestoredOnDemand) {
+    const ModelFolder folder;
+    folder.copyOntology();
+    writeTypes(folder,
+               "<type name='Source' extends='Carrier'><data name='a' kind='float' default='500'/>"
+               "</type><type name='Sink' extends='Carrier'><data name='aCopy' kind='float' min='0' "
+               "max='100' settable='always'/><data name='gain' kind='float' default='3' "
+               "settable='always'/></type>");
+    const auto system = folder.write("odd.xml",
+                                     "<system name='odd'><morphology file='rules.xml'/>"
+                                     "<cluster name='odd' frequency='50'/>"
+                                     "<simplex path='/source' type='Source'/>"
+                                     "<simplex path='/sink' type='Sink'>"
+                                     "<relate rule='source' to='/source'/></simplex></system>");
+    AgentProcess agent{folder, system, withCarrier};
+    agent.start();
+    const std::string file = (folder.path() / "saved.xml").string();
+    const json saved = lookUntil(
+        [&] {
+            return json::parse(live({"save", file, "--force", "--json"}).output, nullptr, false);
+        },
+        [](const json& seen) { return seen.contains("wrong") && !seen["wrong"].empty(); });
+    ASSERT_TRUE(saved.contains("wrong")) << saved;
+    EXPECT_EQ(saved["items"], 1);
+    EXPECT_EQ(saved["wrong"][0]["item"], "aCopy");
+    const Outcome told = live({"save", file, "--force"});
+    EXPECT_EQ(told.exit, 3);
+    EXPECT_TRUE(contains(told.errors, "/sink is not saved whole: aCopy: 500 is above 100"))
+        << told.errors;
+    ASSERT_EQ(live({"set", "/sink", "gain=4"}).exit, 0);
+    EXPECT_EQ(live({"restore", file}).exit, 0) << textOf(file);
+    EXPECT_EQ(liveJson({"show", "/sink"}, "show")["data"]["gain"]["value"], 3);
+
+    folder.write("saved.xml",
+                 "<system name='saved'><simplex path='/sink' type='Sink'>"
+                 "<set data='aCopy' value='500'/><set data='gain' value='5'/></simplex></system>");
+    EXPECT_EQ(live({"restore", file}).exit, 1);
+    EXPECT_EQ(liveJson({"show", "/sink"}, "show")["data"]["gain"]["value"], 3);
+    const Outcome rest = live({"restore", file, "--what-is-good"});
+    EXPECT_EQ(rest.exit, 1);
+    EXPECT_TRUE(contains(rest.output, "/sink.gain  3 -> 5")) << rest.output;
+    EXPECT_EQ(liveJson({"show", "/sink"}, "show")["data"]["gain"]["value"], 5);
+}
+
 struct Refused {
     const char* data;        // attributes of the item
     std::string attributes;  // of <set>

@@ -3,11 +3,11 @@
 #include "cortex/comms/dds_interface.hpp"
 #include "cortex/core/error.hpp"
 #include "cortex/core/event_sinks.hpp"
-#include "cortex/core/labelled_value.hpp"
-#include "cortex/core/nearest_names.hpp"
 #include "cortex/cs/cluster_cs.hpp"
 #include "cortex/toolkit/classes.hpp"
 
+#include "claims.hpp"
+#include "devices.hpp"
 #include "give_way.hpp"
 #include "hook_check.hpp"
 #include "memory_file.hpp"
@@ -16,6 +16,7 @@
 #include "patient_output.hpp"
 #include "plugin_folders.hpp"
 #include "retained_file.hpp"
+#include "start_step.hpp"
 #include "start_up.hpp"
 #include "stored_values.hpp"
 #include "summary.hpp"
@@ -30,6 +31,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <unistd.h>
 
@@ -46,47 +48,15 @@ enum ExitCode {
     HooksBroke = 6
 };
 
-// As an ontology states it.
-std::string shape(const DataItem& item) {
-    std::string text = std::string{"kind=\""} + name(item.kind) + "\" length=\"" +
-                       std::to_string(item.length) + "\"";
-    return item.unit.empty() ? text : text + " unit=\"" + item.unit + "\"";
-}
-
-// PATH.ITEM=VALUE
-void applySetting(SimplexTree& tree, const std::string& text, std::set<std::string>& given) {
-    const std::size_t equals = text.find('=');
-    const std::size_t dot = text.rfind('.', equals);
-    if (equals == std::string::npos || dot == std::string::npos || dot == 0) {
-        throw UsageError("--set " + text + ": write it as /path/of/simplex.item=value");
-    }
-    const std::string itemName = text.substr(dot + 1, equals - dot - 1);
-    if (!given.insert(text.substr(0, equals)).second) {
-        throw UsageError("--set " + text + ": " + text.substr(0, equals) + " is given twice");
-    }
-    Simplex& simplex = tree.at(text.substr(0, dot));
-    const DataItem* item = simplex.type().findData(itemName);
-    if (item == nullptr) {
-        std::vector<std::string> names;
-        for (const DataItem& each : simplex.type().data) names.push_back(each.name);
-        throw UsageError("--set " + text + ": " + simplex.path() + " (" + simplex.type().name +
-                         ") has no item '" + itemName + "'; " + nearestNames(itemName, names));
-    }
-    std::string why;
-    const auto value = parseItemValue(*item, text.substr(equals + 1), why);
-    if (!value) {
-        throw UsageError("--set " + text + ": " + why + "; " + itemName + " has " + shape(*item));
-    }
-    simplex.set(itemName, *value, {"--set", 0});
-}
-
 // Start values from files: the later outranks the earlier one, and --set both.
-void applyFiles(const CommandLine& line, SimplexTree& tree, RetainedFile& retained) {
+void applyFiles(const CommandLine& line, SimplexTree& tree, RetainedFile& retained,
+                Claims& claims) {
     if (!line.settingsFile.empty()) std::cout << applySettingsFile(line.settingsFile, tree);
     if (line.dumpsModel) return;  // a broken file of retained values would be set aside
     if (RetainedFile::hasItems(tree)) {
+        claims.takeFile(retainFile(line));
         try {
-            std::cout << retained.restore(tree);
+            std::cout << retained.restore(tree, !line.noDevices);
         } catch (const Error& error) {
             throw UsageError(error.what());
         }
@@ -119,7 +89,8 @@ void refuseToWrite(const CommandLine& line, const ModelFiles& model) {
     }
 }
 
-SimplexTree readSystem(const CommandLine& line, ClassRegistry& registry, RetainedFile& retained) {
+SimplexTree readSystem(const CommandLine& line, ClassRegistry& registry, RetainedFile& retained,
+                       Claims& claims) {
     Report report;
     const std::array files{line.system};
     ModelFiles model = readModelFiles(files, report);
@@ -140,7 +111,7 @@ SimplexTree readSystem(const CommandLine& line, ClassRegistry& registry, Retaine
     tree.add(model.system, &registry, report);
     if (!report.ok()) throw ModelError(std::move(report));
     tree.createRelated(&registry);
-    applyFiles(line, tree, retained);
+    applyFiles(line, tree, retained, claims);
     try {
         std::set<std::string> given;
         for (const std::string& setting : line.settings) applySetting(tree, setting, given);
@@ -180,7 +151,8 @@ void watch(cs::ClusterCS& cluster, const std::string& name, const std::function<
 }
 
 void printStart(const CommandLine& line, const cs::ClusterCS& cluster,
-                const ClusterSettings& settings, std::size_t simplexes) {
+                const ClusterSettings& settings, std::size_t simplexes,
+                const std::vector<TalkedTo>& devices) {
     for (const std::string& refused : cluster.realtimeReport()) {
         std::cerr << "real time: " << refused << std::endl;
     }
@@ -188,6 +160,7 @@ void printStart(const CommandLine& line, const cs::ClusterCS& cluster,
               << 1e9 / static_cast<double>(settings.period.count()) << " Hz as /" << settings.name
               << (line.offline ? "" : ", domain " + std::to_string(networkOptions(line).domain))
               << std::endl;
+    std::cout << devicesLine(devices, !line.noDevices) << std::flush;
 }
 
 // Of an interface that is still there.
@@ -299,9 +272,9 @@ int endInOrder(Running& running) {
 }
 
 int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTree& tree,
-               RetainedFile& retained, HookCheck& hookCheck) {
+               RetainedFile& retained, HookCheck& hookCheck, Claims& claims) {
     ClusterSettings settings = clusterSettings(tree.description(), line);
-    const bool retains = RetainedFile::hasItems(tree);
+    const bool retains = !line.noDevices && RetainedFile::hasItems(tree);
     if (retains) ++settings.options.imageReaders;
     const auto memory = remember(line, retains, settings);
     cs::ClusterCS cluster{settings.name, settings.options};
@@ -309,6 +282,8 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
     cluster.useClasses(registry);
     Running running{line, settings, cluster, hookCheck, retained, memory.get()};
     running.network = setUp(cluster, line, settings, hookCheck);
+    const std::vector<TalkedTo> devices = devicesOf(tree);
+    cluster.addInterface<StartStep>([&] { claims.takeAll(devices); });
     const auto finish = [](RetainedFile* each) { each->finish(); };
     const std::unique_ptr<RetainedFile, decltype(finish)> keeping{&retained, finish};
     if (line.startup)
@@ -318,7 +293,7 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
     cluster.start();
     if (retains) retained.keep(cluster);
     if (memory) memory->keep();
-    printStart(line, cluster, settings, tree.simplexes().size());
+    printStart(line, cluster, settings, tree.simplexes().size(), devices);
     if (runToEnd(running)) return endInOrder(running);
     std::cerr << "another start of " << settings.name << " is there; this one ends" << std::endl;
     cluster.stop();
@@ -338,7 +313,8 @@ int dumpModel(const CommandLine& line) {
     ClassRegistry registry;
     addClasses(registry);
     RetainedFile unused{retainFile(line)};
-    const OwnedTree tree{new SimplexTree{readSystem(line, registry, unused)}, &destroy};
+    Claims none{line};
+    const OwnedTree tree{new SimplexTree{readSystem(line, registry, unused, none)}, &destroy};
     writeModel(output, modelText(line, registry, *tree));
     return Ended;
 }
@@ -358,9 +334,10 @@ int run(int argc, char** argv) {
     ClassRegistry registry;
     addClasses(registry);
     RetainedFile retained{retainFile(*line)};
-    const OwnedTree tree{new SimplexTree{readSystem(*line, registry, retained)}, &destroy};
+    Claims claims{*line};
+    const OwnedTree tree{new SimplexTree{readSystem(*line, registry, retained, claims)}, &destroy};
     try {
-        return runCluster(*line, registry, *tree, retained, hookCheck);
+        return runCluster(*line, registry, *tree, retained, hookCheck, claims);
     } catch (const comms::SecondStart& error) {
         std::cerr
             << error.what()
@@ -382,6 +359,9 @@ int main(int argc, char** argv) {
     } catch (const ModelError& error) {
         std::cerr << error.report().text();
         return toolkit::Refused;
+    } catch (const toolkit::Taken& error) {
+        std::cerr << error.what() << '\n';
+        return toolkit::Second;
     } catch (const toolkit::UsageError& error) {
         std::cerr << error.what() << '\n';
         return toolkit::Usage;

@@ -3,10 +3,10 @@
 
 #include "cortex/core/error.hpp"
 #include "cortex/core/nearest_names.hpp"
-#include "cortex/core/transport.hpp"
 #include "cortex/cs/cluster_cs.hpp"
 
 #include "model_text.hpp"
+#include "start_step.hpp"
 
 #include <cerrno>
 #include <cstdio>
@@ -24,22 +24,6 @@ namespace {
 constexpr const char* dumpOption = "--dump-mjcf";
 
 struct StartEnded {};
-
-// Is announced when all simplexes are populated and nothing runs yet; there it ends the start.
-class EndOfStart final : public CommunicationInterface {
-public:
-    explicit EndOfStart(std::function<void()> before) : before_{std::move(before)} {}
-    void announce(const AgentAccess& /*agent*/) override {
-        before_();
-        throw StartEnded{};
-    }
-    void read(Inbox& /*inbox*/) override {}
-    void write(std::int64_t /*cycle*/, Outbox& /*outbox*/) override {}
-    void close() override {}
-
-private:
-    std::function<void()> before_;
-};
 
 const HasModelText* modelOf(const Simplex& simplex) {
     return dynamic_cast<const HasModelText*>(&simplex);
@@ -108,7 +92,10 @@ std::string modelText(const CommandLine& line, const ClassRegistry& registry, Si
     cluster.addSimplexTree(tree);
     cluster.useClasses(registry);
     cluster.setTriggerSource<cs::ManualTrigger>(settings.period);
-    cluster.addInterface<EndOfStart>([&] { text = model.modelText(); });
+    cluster.addInterface<StartStep>([&] {
+        text = model.modelText();
+        throw StartEnded{};
+    });
     try {
         cluster.start();
     } catch (const StartEnded&) {

@@ -107,11 +107,17 @@ void addDump(CLI::App& app, CommandLine& line) {
 }
 
 void addMemory(CLI::App& app, CommandLine& line) {
-    app.add_option("--memory", line.memoryFile,
-                   "file that keeps faults, commands, states, control and losses over restarts; if "
-                   "not given, SYSTEM.memory where there are items with retain=\"true\", otherwise "
-                   "none")
-        ->type_name("FILE");
+    CLI::Option* memory =
+        app.add_option(
+               "--memory", line.memoryFile,
+               "file that keeps faults, commands, states, control and losses over restarts; if "
+               "not given, SYSTEM.memory where there are items with retain=\"true\", otherwise "
+               "none")
+            ->type_name("FILE");
+    app.add_flag("--no-devices", line.noDevices,
+                 "a trial run: begins no thread of a device, so that what devices measure is lost; "
+                 "reads retained values and keeps none")
+        ->excludes(memory);
     app.add_option("--memory-entries", line.memoryEntries,
                    "how many of them are kept, with a file or without; 20000 if not given")
         ->type_name("N")
@@ -332,6 +338,7 @@ ClusterSettings clusterSettings(const SystemDescription& system, const CommandLi
     settings.period = std::chrono::nanoseconds{std::llround(1e9 / frequency)};
     settings.spin = std::chrono::nanoseconds{std::llround(1e3 * line.spin)};
     settings.options = optionsOf(entry.attributes, line);
+    settings.options.devices = !line.noDevices;
     settings.options.files = line.files;
     return settings;
 }

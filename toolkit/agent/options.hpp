@@ -37,6 +37,7 @@ struct CommandLine {
     double seconds = 0;  // 0: until SIGINT or SIGTERM
     bool startup = false, checkHooks = false;
     bool wait = false;        // for another start of the name to end
+    bool noDevices = false;   // a trial run: no device is talked to, nothing is kept
     bool dumpsModel = false;  // instead of running
     std::string modelPath;    // of the simplex that has it; empty: the only one
     std::filesystem::path log;

@@ -52,7 +52,7 @@ bool RetainedFile::hasItems(const SimplexTree& tree) {
     });
 }
 
-std::string RetainedFile::restore(SimplexTree& tree) {
+std::string RetainedFile::restore(SimplexTree& tree, bool keeps) {
     if (const std::string other = otherThanAFile(file_); !other.empty()) {
         throw Error("--retain: " + other);
     }
@@ -69,6 +69,11 @@ std::string RetainedFile::restore(SimplexTree& tree) {
     }
     if (!lines.empty()) lines.insert(0, "retained in " + file_.string() + ":\n");
     if (report.ok()) return lines;
+    if (!keeps) {
+        std::cerr << report.text() << file_.string() << ": has what cannot be restored; "
+                  << values.size() << " good values of it count" << std::endl;
+        return lines;
+    }
     const fs::path broken = freeName(file_.string() + ".broken");
     fs::rename(file_, broken, none);
     std::cerr << report.text() << file_.string() << ": has what cannot be restored; "

@@ -26,10 +26,11 @@ public:
 
     static bool hasItems(const SimplexTree& tree);
 
-    // Makes what the file holds start values, and returns the lines that tell it. A file with
-    // anything wrong in it is set aside as FILE.broken; what is good of it counts all the same.
-    // Throws Error where there is something that is no regular file, or a model.
-    std::string restore(SimplexTree& tree);
+    // Makes what the file holds start values, and returns the lines that tell it. What is good of a
+    // file with anything wrong in it counts all the same; where this agent keeps values, it is set
+    // aside as FILE.broken. Throws Error where there is something that is no regular file, or a
+    // model.
+    std::string restore(SimplexTree& tree, bool keeps);
     void keep(cs::ClusterCS& cluster);
     void finish();  // the last values, of the last cycle
 

@@ -7,6 +7,8 @@
 #include "cortex/core/nearest_names.hpp"
 #include "cortex/core/printable.hpp"
 
+#include "options.hpp"
+
 #include <algorithm>
 #include <array>
 
@@ -21,9 +23,11 @@ std::string shownValue(const DataItem& item, const Value& value) {
     return item.kind == Kind::String ? "\"" + text + "\"" : text;
 }
 
-Value startValue(const Simplex& simplex, const DataItem& item) {
-    const auto set = std::ranges::find(simplex.settings(), item.name, &Simplex::Setting::item);
-    return set == simplex.settings().end() ? item.initial : set->value;
+// As an ontology states it.
+std::string shape(const DataItem& item) {
+    std::string text = std::string{"kind=\""} + name(item.kind) + "\" length=\"" +
+                       std::to_string(item.length) + "\"";
+    return item.unit.empty() ? text : text + " unit=\"" + item.unit + "\"";
 }
 
 class StoredReader {
@@ -107,6 +111,11 @@ const StoredKind settableItems{[](const DataItem& item) { return !item.settable.
 const StoredKind retainedItems{[](const DataItem& item) { return item.retain; }, "not-retained",
                                "does not retain"};
 
+Value startValue(const Simplex& simplex, const DataItem& item) {
+    const auto set = std::ranges::find(simplex.settings(), item.name, &Simplex::Setting::item);
+    return set == simplex.settings().end() ? item.initial : set->value;
+}
+
 std::vector<StoredValue> readStored(const std::filesystem::path& file, const StoredKind& kind,
                                     SimplexTree& tree, Report& report) {
     const std::array files{file};
@@ -143,6 +152,32 @@ std::string applySettingsFile(const std::filesystem::path& file, SimplexTree& tr
     const auto changed = std::ranges::count(differences, '\n');
     return "settings of " + file.string() + ": " + std::to_string(values.size()) + " items, " +
            std::to_string(changed) + " of them other than before\n" + differences;
+}
+
+void applySetting(SimplexTree& tree, const std::string& text, std::set<std::string>& given) {
+    const std::size_t equals = text.find('=');
+    const std::size_t dot = text.rfind('.', equals);
+    if (equals == std::string::npos || dot == std::string::npos || dot == 0) {
+        throw UsageError("--set " + text + ": write it as /path/of/simplex.item=value");
+    }
+    const std::string itemName = text.substr(dot + 1, equals - dot - 1);
+    if (!given.insert(text.substr(0, equals)).second) {
+        throw UsageError("--set " + text + ": " + text.substr(0, equals) + " is given twice");
+    }
+    Simplex& simplex = tree.at(text.substr(0, dot));
+    const DataItem* item = simplex.type().findData(itemName);
+    if (item == nullptr) {
+        std::vector<std::string> names;
+        for (const DataItem& each : simplex.type().data) names.push_back(each.name);
+        throw UsageError("--set " + text + ": " + simplex.path() + " (" + simplex.type().name +
+                         ") has no item '" + itemName + "'; " + nearestNames(itemName, names));
+    }
+    std::string why;
+    const auto value = parseItemValue(*item, text.substr(equals + 1), why);
+    if (!value) {
+        throw UsageError("--set " + text + ": " + why + "; " + itemName + " has " + shape(*item));
+    }
+    simplex.set(itemName, *value, {"--set", 0});
 }
 
 }  // namespace cortex::toolkit

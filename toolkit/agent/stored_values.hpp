@@ -4,6 +4,7 @@
 #include "cortex/core/simplex_tree.hpp"
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,9 @@ struct StoredKind {
 };
 extern const StoredKind settableItems, retainedItems;
 
+// The value that the item begins with, as far as files and the command line were read.
+Value startValue(const Simplex& simplex, const DataItem& item);
+
 // What is good of the file, checked against the types of the tree; the rest is in the report.
 std::vector<StoredValue> readStored(const std::filesystem::path& file, const StoredKind& kind,
                                     SimplexTree& tree, Report& report);
@@ -34,5 +38,8 @@ std::string applyStored(const std::vector<StoredValue>& values);
 
 // --settings: all of the file, or ModelError with everything that is wrong. What to print.
 std::string applySettingsFile(const std::filesystem::path& file, SimplexTree& tree);
+
+// --set PATH.ITEM=VALUE. `given`: what was set so before. Throws UsageError, and Error for a value.
+void applySetting(SimplexTree& tree, const std::string& text, std::set<std::string>& given);
 
 }  // namespace cortex::toolkit

@@ -91,7 +91,8 @@ double valueOfNumber(const std::string& number) {
 
 std::string withoutDigits(std::string_view text) {
     std::string words;
-    std::ranges::copy_if(text, std::back_inserter(words), [](char each) { return !isDecimal(each); });
+    std::ranges::copy_if(text, std::back_inserter(words),
+                         [](char each) { return !isDecimal(each); });
     return words;
 }
 

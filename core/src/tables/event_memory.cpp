@@ -44,9 +44,9 @@ std::size_t originOf(const KeptEvent& event) {
     const bool isCommand = event.kind == EventKind::Command || event.kind == EventKind::Control ||
                            event.kind == EventKind::Refusal;
     const auto sentence = isCommand ? commandSentence(event.text) : std::nullopt;
-    return std::hash<std::string>{}(
-        sentence ? withoutProcess(sentence->sender)
-                 : event.path + '\n' + withoutDigits(withoutTimes(event.text)));
+    return std::hash<std::string>{}(sentence ? withoutProcess(sentence->sender)
+                                             : event.path + '\n' +
+                                                   withoutDigits(withoutTimes(event.text)));
 }
 
 // What was dropped may have the last time there is.

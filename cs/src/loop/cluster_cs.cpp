@@ -275,6 +275,7 @@ void ClusterCS::startAll() {
     options.files = self.options.files;
     options.memory = self.options.memory;
     options.realTime = self.trigger->realTime();
+    options.devices = self.options.devices;
     self.agent = std::make_unique<AgentRuntime>(self.name, *self.tree, options);
     if (Report report = missingClasses(*self.agent, self.registry); !report.ok())
         refuse(std::move(report));
@@ -306,7 +307,7 @@ void ClusterCS::startAll() {
         self.agent->refuseWriters();  // nobody knows when such a loop is between two cycles
     }
     self.loop->start();
-    self.ioThreads.begin(simplexes);
+    if (self.options.devices) self.ioThreads.begin(simplexes);
     self.warnOfModel();
     tellInheritedClasses(*self.agent, self.registry);
 }

@@ -222,7 +222,9 @@ void ThreadedSimplex::setAge(const Tick& tick, bool isNew) {
 
 void ThreadedSimplex::tellLoss() {
     EventText text{"the device is lost: "};
-    if (!told_.isThere && !isFirstAwaited_) {
+    if (!runtime().options().devices) {
+        text << "nobody talks to devices here";
+    } else if (!told_.isThere && !isFirstAwaited_) {
         text << told_.why.view();
     } else if (isByClock_) {
         text << "its newest value is " << std::round(static_cast<double>(age_) * 1e-6) * 1e-3

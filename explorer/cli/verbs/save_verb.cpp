@@ -31,8 +31,11 @@ SavedSimplex savedOf(const FoundSimplex& simplex, const Image& image) {
         if (each.item->settable.empty()) continue;
         const Value value = image.value(simplex.index, each);
         const std::string text = toText(value);
-        saved.items.push_back({each.item->name, text, noteOf(*each.item, value),
-                               judgedValue(table, *each.item, text).why, {}});
+        saved.items.push_back({each.item->name,
+                               text,
+                               noteOf(*each.item, value),
+                               judgedValue(table, *each.item, text).why,
+                               {}});
     }
     return saved;
 }
@@ -102,8 +105,8 @@ Exit saveItems(const SaveOptions& options) {
         }
         for (const Json& each : wrong) {
             std::cerr << "cortex: "
-                      << printable(each["path"].get<std::string>() + " is not saved whole: " +
-                                   each["why"].get<std::string>())
+                      << printable(each["path"].get<std::string>() +
+                                   " is not saved whole: " + each["why"].get<std::string>())
                       << '\n';
         }
         if (!lacking.empty()) std::cerr << "cortex: " << printable(lacking) << '\n';

@@ -39,6 +39,7 @@ struct AgentOptions {
     std::int64_t period = 1'000'000;        // ns, nominal
     std::int64_t epoch = 0;                 // of this start, UTC microseconds; 0: now
     bool realTime = false;                  // false: stepped, so that only nominal time counts
+    bool devices = true;                    // false: their threads do not run
     std::string files{};                    // folder of what simplexes read and write; "": none
     std::shared_ptr<EventMemory> memory{};  // of the past; null: one of the usual size
 };

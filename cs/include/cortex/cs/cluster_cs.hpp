@@ -47,6 +47,7 @@ struct ClusterOptions {
     double triggerTimeout = 1;     // s without a tick after which all that is Active faults
     double stopTimeout = 2;        // s after which the shutdown of stop() goes on by force
     bool controlRequired = false;  // commands from outside need a control lease
+    bool devices = true;  // false: no thread of a device begins, so what they measure is lost
     std::uint32_t imageReaders = 8;
     // Tells this start from others of its name, UTC microseconds; 0: now. A replay gives that of
     // the start that it repeats.
