@@ -13,7 +13,8 @@
 namespace cortex::test {
 
 // Takes control as a person does, who presses again where an agent heard of it too late.
-inline bool takesControl(MainWindow& window, Session& session, const std::string& prefix) {
+inline bool takesControl(gui::MainWindow& window, gui::Session& session,
+                         const std::string& prefix) {
     bool isAsked = false;
     const auto press = [&] {
         window.control().choose();

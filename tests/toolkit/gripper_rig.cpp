@@ -20,12 +20,14 @@ class Fingers final : public cs::SimplexCS {
 public:
     using SimplexCS::SimplexCS;
     double piece = 0, mayUse = 0;
+    std::int64_t status = 0;  // of its axis
 
 private:
     void populate() override {
         demand_ = input("demands").data<double>("position");
         force_ = input("demands").data<double>("effort");
         position_ = output("opening").data<double>("position");
+        status_ = output("opening").data<std::int64_t>("status");
         position_ = opening_;  // where the demand begins
         object_ = output("status").data<std::int64_t>("object");
         on<&Fingers::reconnect>("reconnect");
@@ -38,6 +40,7 @@ private:
         if (state() == State::Active) opening_ += std::clamp(aim - opening_, -way, way);
         mayUse = force_;
         position_ = opening_;
+        status_ = status;
         if (opening_ != before)
             object_ = GripperRig::Moving;
         else
@@ -46,7 +49,7 @@ private:
 
     Data<const double> demand_, force_;
     Data<double> position_;
-    Data<std::int64_t> object_;
+    Data<std::int64_t> object_, status_;
     double opening_ = 0.08;
 };
 
@@ -114,6 +117,10 @@ FingerRig::FingerRig() : GripperRig{1} {
 }
 
 void FingerRig::put(double piece) { dynamic_cast<Fingers&>(tree().at("/fingers")).piece = piece; }
+
+void FingerRig::say(std::int64_t status) {
+    dynamic_cast<Fingers&>(tree().at("/fingers")).status = status;
+}
 
 double FingerRig::mayUse() { return dynamic_cast<Fingers&>(tree().at("/fingers")).mayUse; }
 

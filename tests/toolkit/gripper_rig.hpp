@@ -78,6 +78,7 @@ class FingerRig : public GripperRig {
 public:
     FingerRig();
     void put(double piece);
+    void say(std::int64_t status);  // of its axis
     double mayUse();  // force that its fingers may use, as it was told
 };
 

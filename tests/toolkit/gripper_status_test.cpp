@@ -100,5 +100,20 @@ TEST_F(GripperWithStatus, SaysThatNobodyKnowsWhileItIsLostAndAfterwardsWhatItHol
     EXPECT_EQ(rig.object(), GripperRig::StoppedClosing);
 }
 
+TEST_F(GripperWithStatus, SaysOnceThatNobodyKnowsWhileItsDriveIsDisabled) {
+    constexpr std::int64_t enabled = 1, disabled = 6;
+    rig.put(workPiece);
+    ASSERT_TRUE(rig.ask("grip").done());
+    rig.say(disabled);
+    rig.step(500);
+    EXPECT_EQ(rig.object(), GripperRig::Lost);
+    EXPECT_EQ(rig.told(),
+              "whether the work piece is still held is not known: /axis does not follow: its drive "
+              "says Disabled\n");
+    rig.say(enabled);
+    rig.step(500);
+    EXPECT_EQ(rig.object(), rig.get<std::int64_t>("/status", "object")) << "as it says itself";
+}
+
 }  // namespace
 }  // namespace cortex::toolkit::test

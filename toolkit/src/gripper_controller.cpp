@@ -194,7 +194,8 @@ bool GripperController::hasForce() const {
 void GripperController::tellAsStatus(double seconds) {
     demandEffort_ = force_.get();
     rested_ = hasArrived() && status_ != Moving ? rested_ + seconds : 0;
-    tell(rested_ >= statusTime ? status_.get() : Moving);
+    const bool isKnown = follows(0) || isBraked(0);
+    if (isKnown || object_ != Lost) tell(rested_ >= statusTime ? status_.get() : Moving);
 }
 
 void GripperController::watch(double seconds) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int digitsOfRange = 6;
 
-QString shown(const std::string& number) {
+QString sixDigits(const std::string& number) {
     QString text = QString::number(valueOfNumber(number), 'g', digitsOfRange);
     return text.startsWith('-') ? QChar{0x2212} + text.mid(1) : text;
 }
@@ -60,7 +60,7 @@ std::string personAlone(const std::string& text) { return withPerson(text, false
 
 QString rangeText(const NumberRange& range) {
     if (range.isOne()) return QString::fromStdString(range.first);
-    return QStringLiteral("%1 … %2").arg(shown(range.least), shown(range.greatest));
+    return QStringLiteral("%1 … %2").arg(sixDigits(range.least), sixDigits(range.greatest));
 }
 
 QString foldedText(const std::string& words, const std::vector<NumberRange>& ranges) {

@@ -15,7 +15,7 @@ std::string_view withoutTimes(std::string_view text);
 // taken apart: "operator@desk: jog(speed=0.5): Done in 2 cycles". The text of an event is bounded:
 // parts that were cut off are empty. Agents write it in Router::report().
 struct CommandSentence {
-    std::string_view sender;   // "operator@desk", "cortex@desk.4711-5e1f0a for Ada"; without its times
+    std::string_view sender;   // "operator@desk", "cortex@desk.4711-5e1f0a for Ada"
     std::string_view command;  // "jog"
     std::string_view
         arguments;             // "speed=0.5"; what is left of them ends in "…" where they were cut
