@@ -57,7 +57,7 @@ std::string commandOf(pid_t process) {
 }
 
 std::string holderOf(const Address& address) {
-    const std::string unknown = "another process";
+    constexpr const char* unknown = "another process";
     const int socket = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
     if (socket < 0) return unknown;
     ucred peer{};

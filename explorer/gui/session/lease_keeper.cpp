@@ -31,7 +31,7 @@ std::string asSentence(std::string text) {
 
 // Where the folder cannot be read any longer, the agents alone say what is refused.
 std::vector<std::string> rightsIn(const std::string& security) {
-    const std::vector<std::string> everything{"/"};
+    std::vector<std::string> everything{"/"};
     try {
         return security.empty() ? everything : comms::checkSecurity(security).mayCommand;
     } catch (const Error&) {
