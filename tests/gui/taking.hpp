@@ -24,8 +24,9 @@ inline bool takesControl(gui::MainWindow& window, gui::Session& session,
     press();
     return comes([&] {
         if (window.control().prefix() == prefix) return true;
-        const bool asks = !session.frame()->control.asks.empty();
-        if (std::exchange(isAsked, asks) && !asks && !window.control().holds()) press();
+        const gui::Control now = session.frame()->control;
+        const bool asks = !now.asks.empty();
+        if (std::exchange(isAsked, asks) && !asks && now.prefix.empty()) press();
         return false;
     });
 }

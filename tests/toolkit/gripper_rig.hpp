@@ -79,7 +79,7 @@ public:
     FingerRig();
     void put(double piece);
     void say(std::int64_t status);  // of its axis
-    double mayUse();  // force that its fingers may use, as it was told
+    double mayUse();                // force that its fingers may use, as it was told
 };
 
 }  // namespace cortex::toolkit::test
