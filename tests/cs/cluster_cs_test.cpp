@@ -4,6 +4,7 @@
 
 #include "support/awake_cpus.hpp"
 #include "support/probe.hpp"
+#include "support/safe_plant.hpp"
 #include "support/stepped_clock.hpp"
 #include "support/waiting.hpp"
 #include "threads/realtime_thread.hpp"
@@ -102,6 +103,32 @@ TEST(ClusterCS, RefusesAStartValueThatPopulateReplaces) {
                         "[plant.xml:12]"),
               std::string::npos)
         << text;
+}
+
+TEST(ClusterCS, RefusesAStartValueOfADemandThatNeverActs) {
+    ProbeCluster cluster;
+    Simplex& word = cluster.tree.add("/d", "DriveWord");
+    cluster.tree.relate(cluster.probe("/a"), "out", word);
+    word.set("speed", 5.0, {"plant.xml", 7});
+    EXPECT_NE(refusal(cluster).find("/d: speed is given as 5, and begins at 0, where the demand is "
+                                    "safe [plant.xml:7]; leave it out"),
+              std::string::npos);
+
+    SafePlant observed;
+    observed.cluster.tree.at("/d").set("position", 2.0);
+    EXPECT_NE(refusal(observed.cluster)
+                  .find("/d: position is given as 2, and begins at 0.25, where the demand is safe; "
+                        "leave it out, or give it to the simplex that observes the demand"),
+              std::string::npos);
+}
+
+TEST(ClusterCS, TakesAStartValueOfADemandThatActs) {
+    ProbeCluster cluster;
+    Simplex& valve = cluster.tree.add("/v", "Valve");
+    cluster.tree.relate(cluster.probe("/a"), "out", valve);
+    valve.set("opening", 100.0);  // its safe value
+    valve.set("last", 4.0);       // which it holds
+    EXPECT_EQ(refusal(cluster), "");
 }
 
 TEST(ClusterCS, RefusesItAlsoWhereSeveralWriteTheSameSimplex) {
