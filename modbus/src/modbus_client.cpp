@@ -176,6 +176,11 @@ std::span<const std::uint8_t> ModbusClient::receive(const Request& request, std:
         numberAt(all, lengthAt) != size - static_cast<int>(headSize) + 1) {
         failByAnswer(request);
     }
+    if (const int unit = all[headSize - 1]; unit != settings_.unit) {
+        throw toolkit::LinkError(words(request) + ": unit " + std::to_string(unit) +
+                                 " answers; where that is this device, set its item unit to " +
+                                 std::to_string(unit));
+    }
     const std::uint8_t answered = all[headSize];
     if (answered == (function | isException)) failByException(request, all[headSize + 1]);
     if (answered != function) failByAnswer(request);

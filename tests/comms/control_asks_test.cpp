@@ -146,6 +146,31 @@ TEST_F(Asking, AreRefusedInWordsAndMayBeAskedAnew) {
     EXPECT_TRUE(first.isAsked()) << "it is another one";
 }
 
+// As a verb of a shell does, which views what it prints.
+TEST_F(Asking, GoOnWhileTheAskerLooksElsewhere) {
+    Tool first{"first", "alice"}, second{"second", "bob"};
+    ASSERT_TRUE(first.takes("/", {"robot"}));
+    ASSERT_TRUE(second.sees("alice"));
+    ASSERT_TRUE(second.seesHolder("/arm"));
+    second.leases.ask("/arm");
+    ASSERT_TRUE(first.isAsked());
+    for (const char* path : {"/stick", "/arm", "/nowhere", "/stick"}) {
+        second.mirror.view({path}, 100);
+        for (int i = 0; i < 20; ++i) {
+            std::this_thread::sleep_for(std::chrono::milliseconds{10});
+            const auto news = second.leases.news();
+            ASSERT_TRUE(news.empty()) << path << ": " << news.front();
+            ASSERT_EQ(second.leases.asking().holders.size(), 1U) << path;
+        }
+        ASSERT_TRUE(first.isAsked()) << path;
+    }
+    second.mirror.view({"/robot", "/station"}, 100);
+    const auto asked = first.leases.asked();
+    ASSERT_EQ(asked.size(), 1U);
+    first.leases.wait(first.leases.grant(asked.front()));
+    second.newsUntil("control of / of agent robot is yours now");
+}
+
 // However stubbornly they ask on, and although only eight refusals are told.
 TEST_F(Asking, AreRefusedOnceEachHoweverManyAsk) {
     Tool holder{"first", "alice"};

@@ -113,6 +113,7 @@ TEST(FragmentsTest, AllThatIsBegunIsBounded) {
     // What gets nothing for long is forgotten.
     fragments.add({guidOf(3, 1), 1, 1, 1, 8, 16, true}, Datagram(8), 60 * second);
     EXPECT_LT(fragments.bytes(), 1'000U);
+    EXPECT_GT(fragments.incomplete(), 0U);
 }
 
 TEST(FragmentsTest, WhatAWriterDoesNotRepeatIsOverWithItsNextSample) {
@@ -126,6 +127,7 @@ TEST(FragmentsTest, WhatAWriterDoesNotRepeatIsOverWithItsNextSample) {
         EXPECT_EQ(add(1, 1), 0U);
         EXPECT_EQ(add(2, 1), 0U);
         EXPECT_EQ(add(2, 2), 2U);
+        EXPECT_EQ(fragments.incomplete(), comesAgain ? 0U : 1U);
         EXPECT_EQ(add(1, 2), comesAgain ? 2U : 0U);
         EXPECT_EQ(fragments.dropped(), 0U);
     }

@@ -78,6 +78,8 @@ TEST(HostileServer, IsNotTakenForWhatWasAsked) {
     EXPECT_EQ(readTwice(with(2, 1)), noAnswer) << "the protocol";
     EXPECT_EQ(readTwice(with(3, 1)), noAnswer);
     EXPECT_EQ(readTwice(with(5, 1)), noAnswer) << "how many octets follow";
+    EXPECT_EQ(readTwice(with(6, 8)),
+              "unit 9 answers; where that is this device, set its item unit to 9");
     EXPECT_EQ(readTwice(with(7, 1)), noAnswer) << "the function";
     EXPECT_EQ(readTwice([](const Bytes& request) { return Answer{rightAnswer(request, {1})}; }),
               noAnswer)

@@ -3,8 +3,11 @@
 
 #include "cortex/core/path.hpp"
 
+#include "leases/lease_table.hpp"
+
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace cortex::comms {
 namespace {
@@ -136,11 +139,34 @@ void ControlAsks::step(Moment now, std::vector<std::string>& news) {
     if (own_.number != 0) follow(now, news);
 }
 
+// Of an agent that is there and does not show its leases now, as another part of the plant is
+// viewed, the last ones hold. True: there is such an agent.
+bool ControlAsks::addUnshown(const std::vector<Holder>& before) {
+    bool any = false;
+    for (const AgentStatus& agent : mirror_.agents()) {
+        if (agent.state == "lost" || shownLeases(agent, mirror_.image(agent.name))) continue;
+        any = any || concerns(mirror_, agent.name, "/", own_.prefix);
+        for (const Holder& holder : before) {
+            for (const Lease& each : holder.holds) {
+                if (each.agent != agent.name) continue;
+                auto known = std::ranges::find(holders_, holder.name, &Holder::name);
+                if (known == holders_.end())
+                    known = holders_.insert(known, {holder.name, holder.person, {}});
+                known->holds.push_back(each);
+            }
+        }
+    }
+    std::ranges::sort(holders_, {}, &Holder::name);
+    return any;
+}
+
 // Whoever handed over is no holder any more, and we are told so by what is ours now.
 void ControlAsks::follow(Moment now, std::vector<std::string>& news) {
-    holders_ = holdersOf(mirror_, own_.prefix);
+    const std::vector<Holder> before = std::exchange(holders_, holdersOf(mirror_, own_.prefix));
+    const bool isUnknown = addUnshown(before);
     met_ = met_ || !holders_.empty();
     if (holders_.empty()) {
+        if (isUnknown && now - begun_ <= longestAsk) return;
         if (!met_ && now - begun_ < untilShown) return;
         const bool ours = std::ranges::any_of(
             leasesAbout(mirror_, own_.prefix),

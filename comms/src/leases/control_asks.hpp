@@ -34,6 +34,7 @@ public:
 private:
     using Named = std::pair<std::string, std::uint64_t>;  // a tool, and the number of its ask
 
+    bool addUnshown(const std::vector<LeaseClient::Holder>& before);
     void follow(Moment now, std::vector<std::string>& news);
     void end(std::string why, std::vector<std::string>& news);
     void tell(const ControlAsk& asks);

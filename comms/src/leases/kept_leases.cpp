@@ -3,6 +3,8 @@
 
 #include "cortex/core/path.hpp"
 
+#include "leases/lease_table.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -18,13 +20,6 @@ std::int64_t wallClock() {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(
                std::chrono::system_clock::now().time_since_epoch())
         .count();
-}
-
-// Whether it says who holds what of it.
-bool showsLeases(const AgentStatus& agent, const AgentImage& image) {
-    if (!image || agent.state == "lost") return false;
-    const std::uint32_t own = image->structure().find("/" + agent.name);
-    return own != noSimplex && image.came(own);
 }
 
 std::string controlOf(const LeaseClient::Lease& lease) {
@@ -68,15 +63,14 @@ void KeptLeases::dropBelow(const std::string& agent, const std::string& prefix) 
 
 void KeptLeases::findOffers() {
     for (const AgentStatus& agent : mirror_.agents()) {
-        const AgentImage image = mirror_.image(agent.name);
-        if (!showsLeases(agent, image)) continue;
-        auto shown = leasesOf(agent, image);
-        std::erase_if(shown, [&](const auto& each) { return each.holder != mirror_.name(); });
+        auto shown = shownLeases(agent, mirror_.image(agent.name));
+        if (!shown) continue;
+        std::erase_if(*shown, [&](const auto& each) { return each.holder != mirror_.name(); });
         std::erase_if(lost_, [&](const Lost& lost) {
             return lost.agent == agent.name &&
-                   std::ranges::find(shown, lost.prefix, &ShownLease::prefix) == shown.end();
+                   std::ranges::find(*shown, lost.prefix, &ShownLease::prefix) == shown->end();
         });
-        for (const ShownLease& each : shown) take(each);
+        for (const ShownLease& each : *shown) take(each);
     }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cortex/comms/lease_client.hpp"
+#include "leases/lease_table.hpp"
+
 #include "cortex/core/control_commands.hpp"
 
 #include <algorithm>
@@ -27,6 +28,11 @@ bool isFreeCommand(std::string_view command) {
 }
 
 std::vector<ShownLease> leasesOf(const AgentStatus& agent, const AgentImage& image) {
+    return shownLeases(agent, image).value_or(std::vector<ShownLease>{});
+}
+
+std::optional<std::vector<ShownLease>> shownLeases(const AgentStatus& agent,
+                                                   const AgentImage& image) {
     if (!image || agent.state == "lost") return {};  // its last ones say nothing about now
     const std::uint32_t own = image->structure().find("/" + agent.name);
     if (own == noSimplex || !image.came(own)) return {};

@@ -82,10 +82,12 @@ DatagramFilter::Admitted DatagramFilter::admit(Bytes datagram, std::uint32_t add
         if (isCounted(refusal)) note(refusal, 1, address);
         return {};
     }
-    const std::uint64_t before = fragments_.dropped();
+    const std::uint64_t dropped = fragments_.dropped(), incomplete = fragments_.incomplete();
     std::vector<Message> whole = takeFragments(datagram, now);
-    if (fragments_.dropped() > before)
-        note(Refusal::Unfinished, fragments_.dropped() - before, address);
+    if (fragments_.dropped() > dropped)
+        note(Refusal::Unfinished, fragments_.dropped() - dropped, address);
+    if (fragments_.incomplete() > incomplete)
+        note(Refusal::Incomplete, fragments_.incomplete() - incomplete, address);
     return {std::move(whole), datagram.size()};
 }
 

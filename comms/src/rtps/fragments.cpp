@@ -17,7 +17,8 @@ std::uint32_t fragmentsOf(const Fragment& fragment) {
 }  // namespace
 
 std::vector<Message> Fragments::add(const Fragment& fragment, Message message, std::int64_t now) {
-    while (!begun_.empty() && now - begun_.front().met > patience) forget(begun_.begin());
+    while (!begun_.empty() && now - begun_.front().met > patience)
+        drop(begun_.begin(), incomplete_);
     const Place place = placeOf(fragment);
     Begun& begun = *place;
     begun.met = now;
@@ -42,7 +43,8 @@ std::vector<Message> Fragments::add(const Fragment& fragment, Message message, s
     // A writer that does not repeat is read in order: what it began before is over.
     for (Place each = begun_.begin(); each != begun_.end() && !fragment.comesAgain;) {
         const Place next = std::next(each);
-        if (each->of.writer == fragment.writer && each->of.number < fragment.number) forget(each);
+        if (each->of.writer == fragment.writer && each->of.number < fragment.number)
+            drop(each, incomplete_);
         each = next;
     }
     return whole;
@@ -58,7 +60,7 @@ Fragments::Place Fragments::placeOf(const Fragment& fragment) {
             begun_.splice(begun_.end(), begun_, known);
             return known;
         }
-        drop(known);
+        drop(known, dropped_);
     }
     const std::uint32_t count = fragmentsOf(fragment);
     Begun begun{fragment, 0, count, std::vector<bool>(count), {}, sizeof(Begun) + count / 8};
@@ -73,14 +75,14 @@ void Fragments::makeRoom(const WriterGuid& writer) {
     auto ofWriter = static_cast<std::size_t>(std::ranges::count_if(begun_, isOfWriter));
     while (ofWriter > mostOfWriter || begun_.size() > most || bytes_ > mostBytes) {
         const bool hasOthers = ofWriter > 1;
-        drop(hasOthers ? std::ranges::find_if(begun_, isOfWriter) : begun_.begin());
+        drop(hasOthers ? std::ranges::find_if(begun_, isOfWriter) : begun_.begin(), dropped_);
         if (begun_.empty()) return;
         if (hasOthers) --ofWriter;
     }
 }
 
-void Fragments::drop(Place place) {
-    dropped_ += std::max<std::size_t>(place->messages.size(), 1);
+void Fragments::drop(Place place, std::uint64_t& count) {
+    count += std::max<std::size_t>(place->messages.size(), 1);
     forget(place);
 }
 

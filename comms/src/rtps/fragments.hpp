@@ -36,7 +36,8 @@ public:
     std::vector<Message> add(const Fragment& fragment, Message message, std::int64_t now);
 
     std::size_t bytes() const { return bytes_; }
-    std::uint64_t dropped() const { return dropped_; }  // messages, for want of room
+    std::uint64_t dropped() const { return dropped_; }        // messages, for want of room
+    std::uint64_t incomplete() const { return incomplete_; }  // and as others never came
 
 private:
     struct Begun {
@@ -51,12 +52,12 @@ private:
 
     Place placeOf(const Fragment& fragment);
     void makeRoom(const WriterGuid& writer);
-    void drop(Place place);
+    void drop(Place place, std::uint64_t& count);
     void forget(Place place);
 
     std::list<Begun> begun_;  // the last one got something last
     std::size_t bytes_ = 0;
-    std::uint64_t dropped_ = 0;
+    std::uint64_t dropped_ = 0, incomplete_ = 0;
 };
 
 }  // namespace cortex::comms::rtps

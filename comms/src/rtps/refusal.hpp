@@ -16,12 +16,13 @@ enum class Refusal : std::uint8_t {
     Fragment,      // a fragment where none is needed, or of a sample that is too large
     Participants,  // more participants than an address or the network may have
     Unfinished,    // fragments of a sample that was never complete, while others needed the room
+    Incomplete,    // fragments of a sample of which others never came
     Endpoints,  // an announcement of one endpoint more than a participant or the network may have
     Echo,       // what this participant itself has sent to a group of which it is
     Domain,     // a participant that says that it is of another domain
     Early,      // of one that was silent for a lease, a moment after it came back
 };
-inline constexpr std::size_t refusals = 12;
+inline constexpr std::size_t refusals = 13;
 
 // What belongs to a network that works is not.
 constexpr bool isCounted(Refusal refusal) {
@@ -39,6 +40,7 @@ constexpr const char* wordsOf(Refusal refusal) {
         "they are fragments of what is never sent in fragments, or of too much",
         "there are too many participants",
         "they began more samples in fragments than there is room for",
+        "other fragments of their sample never came",
         "they announce more endpoints than there is room for",
         "they are its own",
         "they announce participants of another domain, which uses our ports",

@@ -163,6 +163,38 @@ Judgement keepsLimits(const Judged& of) {
                   "does the device not keep its limit?");
 }
 
+// The way that its velocity adds up to, until it was farthest away.
+Judgement velocityIsThatOfItsPosition(const Judged& of) {
+    const double start = firstLeg(of.trial).from;
+    const auto& points = of.trial.points;
+    const auto away = [start](const Trial::Point& each) { return std::abs(each.observed - start); };
+    const auto farthest = std::ranges::max_element(points, {}, away);
+    double added = 0;
+    for (auto each = points.begin() + 1; each <= farthest; ++each)
+        added += (each->speed + (each - 1)->speed) / 2 * (each->seconds - (each - 1)->seconds);
+    const double way = farthest->observed - points.front().observed;
+    if (std::abs(added - way) <= scale * std::abs(way) + of.trial.near)
+        return passed(of.with(added) + " for " + of.with(way));
+    return failed(of.observation() + " went " + of.with(way) + ", and its velocity adds up to " +
+                  of.with(added) +
+                  ": whoever brakes or judges a standstill by it is misled; does it come from the "
+                  "device, and in another unit?");
+}
+
+// A drive says when it measured, and its acceleration is taken from that.
+Judgement accelerationChanges(const Judged& of) {
+    firstLeg(of.trial);
+    const auto& points = of.trial.points;
+    const auto [least, most] = std::ranges::minmax(points, {}, &Trial::Point::speed);
+    if (most.speed - least.speed <= of.trial.near)
+        return skipped("its velocity did not change; see 'velocity is that of its position'");
+    if (std::ranges::any_of(points, [](const auto& each) { return each.acceleration != 0; }))
+        return passed();
+    return failed(of.observation() + " changed its velocity by " +
+                  of.with(most.speed - least.speed) +
+                  "/s, and its acceleration stayed 0: does the drive's clock stand?");
+}
+
 Judgement stopsWithoutDemand(const Judged& of) {
     if (!of.trial.loss) {
         if (of.trial.legs.size() < 3) endWith(of.trial);
@@ -202,19 +234,24 @@ Tests axisTests() {
     struct Row {
         const char* name;
         Judgement (*judge)(const Judged&);
+        const char* type = "Device";
     };
     Tests tests;
-    for (const Row& row : std::array<Row, 9>{{{"it moves on command", movesOnCommand},
+    for (const Row& row : std::array<Row, 11>{{{"it moves on command", movesOnCommand},
                                               {"it starts where it is", startsWhereItIs},
                                               {"sign is right", sign},
                                               {"unit is right", unit},
                                               {"it arrives", arrives},
                                               {"it follows its demand", follows},
                                               {"limits are kept", keepsLimits},
+                                              {"velocity is that of its position",
+                                               velocityIsThatOfItsPosition},
+                                              {"acceleration changes", accelerationChanges,
+                                               "Ds402Device"},
                                               {"it stops without a demand", stopsWithoutDemand},
                                               {"it is braked in Standby", isBraked}}}) {
         tests.push_back({row.name,
-                         {"Device"},
+                         {row.type},
                          Needs::Motion,
                          Per::Axis,
                          [judge = row.judge](Bench& bench, std::size_t place) {

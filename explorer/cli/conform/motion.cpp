@@ -227,7 +227,8 @@ void Motion::toAndFro() {
     bench_.recording().follow([this](const Sample& each) {
         trial_.points.push_back({each.seconds(), each.at(axis_.demand, "position"),
                                  each.at(axis_.observation, "position"),
-                                 each.at(axis_.observation, "velocity")});
+                                 each.at(axis_.observation, "velocity"),
+                                 each.at(axis_.observation, "acceleration")});
     });
     move(start_ + trial_.amplitude);
     if (!trial_.legs.back().arrived) {

@@ -14,7 +14,7 @@ namespace cortex::cli::conform {
 // and with its brake on. All positions are in the unit of the axis.
 struct Trial {
     struct Point {
-        double seconds = 0, demanded = 0, observed = 0, speed = 0;
+        double seconds = 0, demanded = 0, observed = 0, speed = 0, acceleration = 0;
     };
     struct Leg {
         double from = 0, to = 0, reached = 0;

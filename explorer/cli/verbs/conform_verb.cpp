@@ -64,6 +64,12 @@ std::size_t total(const std::vector<DeviceResults>& devices, Verdict verdict) {
     return all;
 }
 
+bool hasMoved(const DeviceResults& device) {
+    return std::ranges::any_of(device.results, [](const conform::Result& each) {
+        return each.moves && each.judgement.verdict != Verdict::Skipped;
+    });
+}
+
 Json resultJson(const conform::Result& result) {
     return {{"test", result.test},
             {"moves", result.moves},
@@ -134,7 +140,14 @@ Exit testConformance(const ConformOptions& options) {
                   << total(devices, Verdict::Failed) << " failed, "
                   << total(devices, Verdict::Skipped) << " skipped\n";
     }
-    return total(devices, Verdict::Failed) == 0 ? Yes : No;
+    Exit exit = total(devices, Verdict::Failed) == 0 ? Yes : No;
+    for (const DeviceResults& each : devices) {
+        if (!(options.move || options.grip) || hasMoved(each)) continue;
+        std::cerr << "cortex: nothing of " << each.path
+                  << " was moved, although that was asked for: see why its tests were skipped\n";
+        exit = No;
+    }
+    return exit;
 }
 
 }  // namespace cortex::cli
