@@ -16,7 +16,6 @@
 #include "patient_output.hpp"
 #include "plugin_folders.hpp"
 #include "retained_file.hpp"
-#include "start_step.hpp"
 #include "start_up.hpp"
 #include "stored_values.hpp"
 #include "summary.hpp"
@@ -283,7 +282,7 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
     Running running{line, settings, cluster, hookCheck, retained, memory.get()};
     running.network = setUp(cluster, line, settings, hookCheck);
     const std::vector<TalkedTo> devices = devicesOf(tree);
-    cluster.addInterface<StartStep>([&] { claims.takeAll(devices); });
+    cluster.beforeFirstCycle([&] { claims.takeAll(devices); });
     const auto finish = [](RetainedFile* each) { each->finish(); };
     const std::unique_ptr<RetainedFile, decltype(finish)> keeping{&retained, finish};
     if (line.startup)

@@ -6,7 +6,6 @@
 #include "cortex/cs/cluster_cs.hpp"
 
 #include "model_text.hpp"
-#include "start_step.hpp"
 
 #include <cerrno>
 #include <cstdio>
@@ -92,7 +91,7 @@ std::string modelText(const CommandLine& line, const ClassRegistry& registry, Si
     cluster.addSimplexTree(tree);
     cluster.useClasses(registry);
     cluster.setTriggerSource<cs::ManualTrigger>(settings.period);
-    cluster.addInterface<StartStep>([&] {
+    cluster.beforeFirstCycle([&] {
         text = model.modelText();
         throw StartEnded{};
     });

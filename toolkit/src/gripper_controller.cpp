@@ -172,7 +172,7 @@ void GripperController::tell(std::int64_t object) {
           EventText{"the work piece was lost at an opening of "} << position_.get() << " m");
 }
 
-// A gripper with a status holds it by itself, also by its brake, and says how long.
+// A gripper with a status holds by itself, also with its brake on.
 EventText GripperController::whyNotHeld() const {
     constexpr std::string_view noMore = "the force on the work piece is kept no more: ",
                                unknown = "whether the work piece is still held is not known: ";

@@ -33,6 +33,7 @@ struct ClusterCS::Implementation {
     std::vector<std::unique_ptr<CommunicationInterface>> interfaces;
     std::vector<std::function<void(const Heartbeat&)>> heartbeats;
     std::vector<std::pair<EventLog::Sink, EventLog::Repeats>> sinks;
+    std::function<void()> beforeFirstCycle;
     ProgramInterface program;
     std::unique_ptr<AgentRuntime> agent;
     std::unique_ptr<ClusterLoop> loop;
@@ -106,6 +107,10 @@ void ClusterCS::addHeartbeat(std::function<void(const Heartbeat&)> function) {
 
 void ClusterCS::addEventSink(EventLog::Sink sink, EventLog::Repeats repeats) {
     implementation_->sinks.emplace_back(std::move(sink), repeats);
+}
+
+void ClusterCS::beforeFirstCycle(std::function<void()> function) {
+    implementation_->beforeFirstCycle = std::move(function);
 }
 
 TaskGraph ClusterCS::Implementation::graph() const {
@@ -303,6 +308,7 @@ void ClusterCS::startAll() {
         const BoundedStep step{"joining the network as /" + self.name};
         self.agent->start();
     }
+    if (self.beforeFirstCycle) self.beforeFirstCycle();
     if (self.trigger->realTime()) {
         self.agent->refuseWriters();  // nobody knows when such a loop is between two cycles
     }

@@ -64,7 +64,7 @@ void GivenValues::checkDemands(Report& report) const {
             agent_.tables().edge(static_cast<std::uint32_t>(edge - structure.edges.begin()));
         for (const InitialValue* each : values) {
             const DataItem& item = *each->item->item;
-            if (item.safe.kind == Safe::Kind::None || item.retain) continue;
+            if (item.safe.kind == Safe::Kind::None) continue;
             const Value value = loadValue(item, out.at(item.kind, each->item->offset));
             const Value given = wholeValue(*each);
             if (value == given) continue;

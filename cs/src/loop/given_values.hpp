@@ -20,7 +20,7 @@ public:
     void check(std::uint32_t simplex, Report& report) const;
 
     // Once the tasks are made: an error for each value of a demand that never acts, as the demand
-    // begins at its safe value. Retained values are not looked at: they come with each start.
+    // begins at its safe value.
     void checkDemands(Report& report) const;
 
 private:

@@ -237,19 +237,18 @@ Tests axisTests() {
         const char* type = "Device";
     };
     Tests tests;
-    for (const Row& row : std::array<Row, 11>{{{"it moves on command", movesOnCommand},
-                                              {"it starts where it is", startsWhereItIs},
-                                              {"sign is right", sign},
-                                              {"unit is right", unit},
-                                              {"it arrives", arrives},
-                                              {"it follows its demand", follows},
-                                              {"limits are kept", keepsLimits},
-                                              {"velocity is that of its position",
-                                               velocityIsThatOfItsPosition},
-                                              {"acceleration changes", accelerationChanges,
-                                               "Ds402Device"},
-                                              {"it stops without a demand", stopsWithoutDemand},
-                                              {"it is braked in Standby", isBraked}}}) {
+    for (const Row& row :
+         std::array<Row, 11>{{{"it moves on command", movesOnCommand},
+                              {"it starts where it is", startsWhereItIs},
+                              {"sign is right", sign},
+                              {"unit is right", unit},
+                              {"it arrives", arrives},
+                              {"it follows its demand", follows},
+                              {"limits are kept", keepsLimits},
+                              {"velocity is that of its position", velocityIsThatOfItsPosition},
+                              {"acceleration changes", accelerationChanges, "Ds402Device"},
+                              {"it stops without a demand", stopsWithoutDemand},
+                              {"it is braked in Standby", isBraked}}}) {
         tests.push_back({row.name,
                          {row.type},
                          Needs::Motion,

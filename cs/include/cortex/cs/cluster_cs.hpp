@@ -97,6 +97,9 @@ public:
     void adoptInterface(std::unique_ptr<CommunicationInterface> interface);
     void addHeartbeat(std::function<void(const Heartbeat&)> function);
     void addEventSink(EventLog::Sink sink, EventLog::Repeats repeats = EventLog::Repeats::Each);
+    // Called once in start(), when all simplexes are populated, the interfaces have joined, and
+    // nothing runs yet. What it throws ends the start.
+    void beforeFirstCycle(std::function<void()> function);
 
     // Creates related simplexes, validates (throws ModelError with everything), fixes the layout,
     // populates, builds the schedule, announces, starts the loop.
