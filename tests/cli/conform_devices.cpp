@@ -20,7 +20,7 @@ public:
     using SimplexCS::SimplexCS;
 
 private:
-    enum Mistake { None, WrongSign, BeyondRange, Degrees, RunsOn, NoBrake };
+    enum Mistake { None, WrongSign, BeyondRange, Degrees, RunsOn, NoBrake, NoVelocity };
 
     void populate() override {
         mistake_ = data<const std::int64_t>("mistake");
@@ -31,9 +31,12 @@ private:
         status_ = output("observations").data<std::int64_t>("status");
     }
     void loopEnd(const Tick& tick) override {
-        const double before = observed_;
-        if (state() == State::Active) observed_ = follow(before, tick.elapsedSeconds());
-        velocity_ = (observed_ - before) / tick.elapsedSeconds();
+        const double before = place_;
+        if (state() == State::Active) place_ = follow(before, tick.elapsedSeconds());
+        velocity_ = mistake_ == NoVelocity ? 0 : (place_ - before) / tick.elapsedSeconds();
+        observed_ = place_;
+        // On its way, near the end of the range.
+        if (mistake_ == BeyondRange && place_ > 0.33 && place_ < 0.38) observed_ = 0.51;
         const bool isOn = state() != State::Active && mistake_ != NoBrake;
         status_ = isOn ? braked : ready;
     }
@@ -42,8 +45,6 @@ private:
         switch (mistake_) {
             case WrongSign:
                 return -demand_;
-            case BeyondRange:  // on its way, near the end of the range
-                return demand_ > 0.33 && demand_ < 0.38 ? 0.51 : demand_.get();
             case Degrees:
                 return degrees * demand_;
             case RunsOn:  // while nobody speaks for the demand
@@ -56,6 +57,7 @@ private:
     }
 
     std::int64_t mistake_ = 0;
+    double place_ = 0;
     Data<const double> demand_;
     std::optional<InputSimplex> demandState_;
     Data<double> observed_, velocity_;

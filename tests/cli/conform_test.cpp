@@ -115,7 +115,7 @@ TEST(CortexConform, MovesNothingUnlessItIsToldHowFar) {
             EXPECT_TRUE(contains(each["text"], "--move AMPLITUDE allows that, in rad")) << each;
         }
     }
-    EXPECT_EQ(moving, 9U);
+    EXPECT_EQ(moving, 10U);
     EXPECT_EQ(saidOf(all, "/arm", "states are reached"),
               "skipped: its startup may move it or give it power; --move AMPLITUDE allows that");
     EXPECT_EQ(plant.number("/arm/is", "position"), 0);
@@ -183,7 +183,8 @@ TEST(CortexConform, FindsWhatADeviceBehindABusBreaks) {
 
 TEST(CortexConform, FindsWhatAnAxisBreaks) {
     ConformPlant plant;
-    const std::vector<std::string> mistakes{"/sign", "/range", "/degrees", "/runs", "/brake"};
+    const std::vector<std::string> mistakes{"/sign", "/range", "/degrees",
+                                            "/runs", "/brake", "/silent"};
     for (std::size_t i = 0; i < mistakes.size(); ++i) {
         plant.addAxis(mistakes[i], "ScriptedAxis", std::to_string(i + 1));
     }
@@ -195,7 +196,11 @@ TEST(CortexConform, FindsWhatAnAxisBreaks) {
                       {"/range", "limits are kept", {"was at 0.51 rad", "outside of -0.5 rad"}},
                       {"/degrees", "it moves on command", {"more than twice the amplitude"}},
                       {"/runs", "it stops without a demand", {"still moves 2 s after /runs/move"}},
-                      {"/brake", "it is braked in Standby", {"is Ready", "Braked or Disabled"}}});
+                      {"/brake", "it is braked in Standby", {"is Ready", "Braked or Disabled"}},
+                      {"/silent",
+                       "velocity is that of its position",
+                       {"/silent/is went 0.", "its velocity adds up to 0 rad"}}});
+    EXPECT_EQ(failedOf(all, "/silent"), std::set<std::string>{"velocity is that of its position"});
     EXPECT_EQ(failedOf(all, "/range"), std::set<std::string>{"limits are kept"});
     EXPECT_EQ(failedOf(all, "/brake"), std::set<std::string>{"it is braked in Standby"});
     for (const std::string& each : mistakes) {
@@ -212,7 +217,7 @@ TEST(CortexConform, SaysWhyAnAxisCannotBeMoved) {
     plant.start();
     ASSERT_EQ(live({"call", "/held/move", "startup"}).exit, 0);
 
-    const json all = conform({"/alone", "/held", "/near", "--move", "0.6"}, 0);
+    const json all = conform({"/alone", "/held", "/near", "--move", "0.6"}, 1);
 
     const std::string test = "it moves on command";
     EXPECT_TRUE(contains(
@@ -239,7 +244,8 @@ TEST(CortexConform, LeadsADriveThroughItsTransitions) {
          {"mode is echoed", "transition 2", "transition 3", "transition 4", "transition 5",
           "transition 6", "transition 7", "transition 8", "transition 9", "transition 10",
           "transition 11", "transition 12", "transition 16", "words refused: Switch on disabled",
-          "words refused: Operation enabled", "it arrives"}) {
+          "words refused: Operation enabled", "it arrives", "velocity is that of its position",
+          "acceleration changes"}) {
         EXPECT_TRUE(saidOf(all, "/drive", each).starts_with("passed"))
             << each << ": " << saidOf(all, "/drive", each);
     }
@@ -327,13 +333,13 @@ TEST(CortexConform, PutsEverythingBackWhereItIsInterrupted) {
 }
 
 TEST_F(CortexControl, ConformSaysThatItNeedsControlAndTakesIt) {
-    const json without = conform({"/drive", "--move", "0.1"}, 0);
+    const json without = conform({"/drive", "--move", "0.1"}, 1);
     const std::string said = saidOf(without, "/drive", "states are reached");
     EXPECT_TRUE(contains(said, "skipped: startup of /drive was not allowed: control is required"))
         << said;
     EXPECT_TRUE(contains(said, "--take takes control")) << said;
 
-    const json with = conform({"/drive", "--move", "0.1", "--take"}, 0);
+    const json with = conform({"/drive", "--move", "0.1", "--take"}, 1);
 
     EXPECT_TRUE(saidOf(with, "/drive", "states are reached").starts_with("passed")) << with.dump(1);
     EXPECT_TRUE(leases().empty()) << leases();

@@ -163,16 +163,17 @@ Judgement keepsLimits(const Judged& of) {
                   "does the device not keep its limit?");
 }
 
-// The way that its velocity adds up to, until it was farthest away.
+// The way that its velocity adds up to, until its first demand was there.
 Judgement velocityIsThatOfItsPosition(const Judged& of) {
-    const double start = firstLeg(of.trial).from;
+    firstLeg(of.trial);
     const auto& points = of.trial.points;
-    const auto away = [start](const Trial::Point& each) { return std::abs(each.observed - start); };
-    const auto farthest = std::ranges::max_element(points, {}, away);
+    const auto there = std::ranges::max_element(points, {}, &Trial::Point::demanded);
     double added = 0;
-    for (auto each = points.begin() + 1; each <= farthest; ++each)
-        added += (each->speed + (each - 1)->speed) / 2 * (each->seconds - (each - 1)->seconds);
-    const double way = farthest->observed - points.front().observed;
+    for (auto each = points.begin(); each != there; ++each) {
+        const auto next = each + 1;
+        added += (each->speed + next->speed) / 2 * (next->seconds - each->seconds);
+    }
+    const double way = there->observed - points.front().observed;
     if (std::abs(added - way) <= scale * std::abs(way) + of.trial.near)
         return passed(of.with(added) + " for " + of.with(way));
     return failed(of.observation() + " went " + of.with(way) + ", and its velocity adds up to " +
@@ -192,7 +193,8 @@ Judgement accelerationChanges(const Judged& of) {
         return passed();
     return failed(of.observation() + " changed its velocity by " +
                   of.with(most.speed - least.speed) +
-                  "/s, and its acceleration stayed 0: does the drive's clock stand?");
+                  "/s, and its acceleration stayed 0: does the drive's clock stand, or is the item "
+                  "never written?");
 }
 
 Judgement stopsWithoutDemand(const Judged& of) {
