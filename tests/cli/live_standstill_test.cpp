@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the tools say of a loop that hangs while they begin to look, and of one that is too slow.
+#include "cli/controlled_agent.hpp"
 #include "cli/hung_agent.hpp"
 #include "cli/json_schema.hpp"
 #include "cli/live_agent.hpp"
+#include "cli/on_terminal.hpp"
 
+#include <chrono>
+#include <csignal>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -41,6 +47,46 @@ TEST(LiveStandstill, IsShownByEveryToolWithTheHookAndTheTime) {
     EXPECT_TRUE(contains(screen.output, "tasks us  /ctl ")) << screen.output;
 
     EXPECT_TRUE(contains(live({"doctor"}).output, "the loop of robot on ")) << "an error";
+}
+
+class CortexSilence : public CortexLive {
+protected:
+    CortexSilence() : CortexLive{"AxisPoseController"} {}
+
+    // A move of minutes that a call waits for so long, once it is seen to run.
+    std::unique_ptr<OnTerminal> longMove(const std::string& timeout) const {
+        EXPECT_EQ(live({"call", "/mixer", "startup"}).exit, 0);
+        EXPECT_EQ(live({"set", "/controller", "pose=1e5 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0"}).exit, 0);
+        const std::vector<std::string> move{"call",      "/controller", "moveTo", "speedShare=0.01",
+                                            "--timeout", timeout};
+        return lookUntil([&] { return std::make_unique<OnTerminal>(cortexCommand(move)); },
+                         [](const auto& each) { return each->shows("moveTo: "); });
+    }
+};
+
+// Its answer is the agent's own, whatever a move makes of a standstill.
+TEST_F(CortexSilence, OfAnAgentIsWaitedOutByACallAsLongAsItsTimeout) {
+    const comms::Mirror eye{"eye", ownNetwork()};
+    ASSERT_TRUE(eye.waitForOwner("/mixer", patience));
+    const auto call = longMove(patient);
+
+    agent->send(SIGSTOP);
+    ASSERT_TRUE(becomesTrue([&] { return eye.agents().at(0).state == "lost"; }));
+    EXPECT_FALSE(call->shows("Unknown", std::chrono::seconds{1})) << call->output();
+    agent->send(SIGCONT);
+    live({"call", "/controller", "cancel"});  // it may have ended by itself
+
+    EXPECT_NE(call->exit(), 3) << call->output();
+    EXPECT_FALSE(contains(call->output(), "Unknown")) << call->output();
+}
+
+TEST_F(CortexSilence, ThatLastsIsNoCommandThatRunsOn) {
+    const auto call = longMove("5");
+
+    agent->end(SIGKILL);
+
+    EXPECT_EQ(call->exit(), 3) << call->output();
+    EXPECT_TRUE(contains(call->output(), "Unknown: mixer is not heard: ")) << call->output();
 }
 
 TEST(LiveFault, ATextThatFillsItsItemIsNotShownAsAWholeOne) {

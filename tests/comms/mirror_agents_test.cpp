@@ -78,16 +78,33 @@ TEST_F(MirrorAgentsTest, AreLostAfterASecondAndForgottenAfterAMinute) {
     EXPECT_EQ(status().state, "running");
     agents.tick(nothing, begin + 1001ms);
     EXPECT_EQ(status().state, "lost");
-    EXPECT_EQ(lost, std::vector<std::string>{"rig: the agent is not heard"});
+    EXPECT_EQ(lost, std::vector<std::string>{}) << "commands wait: it may only stand still";
     EXPECT_TRUE(agents.missesAny());
     EXPECT_FALSE(agents.hearsAny());
     EXPECT_TRUE(agents.awaitsAny(begin + 14999ms)) << "it may only stand still";
     EXPECT_FALSE(agents.awaitsAny(begin + 15s));
     agents.tick(nothing, begin + 60s);
-    EXPECT_EQ(lost.size(), 1U);
+    EXPECT_EQ(lost.size(), 0U);
     ASSERT_NE(agents.find("rig"), nullptr);
     agents.tick(nothing, begin + 62s);
+    EXPECT_EQ(lost, std::vector<std::string>{"rig: the agent was not heard for a minute"});
     EXPECT_EQ(agents.find("rig"), nullptr);
+}
+
+TEST_F(MirrorAgentsTest, ThatWereSilentMayStillEndOrBeReplaced) {
+    tellAll();
+    agents.tick(nothing, begin + 2s);
+    agents.withdraw(agent.presence.agent);
+    agents.tick(nothing, begin + 2s);
+    agents.tick(nothing, begin + 62s);
+    EXPECT_EQ(lost, std::vector<std::string>{"rig: the agent has ended"}) << "once";
+
+    lost.clear();
+    tellAll();
+    agents.tick(nothing, begin + 2s);
+    ++agent.presence.epoch;
+    agents.take(agent.presence, begin + 2s);
+    EXPECT_EQ(lost, std::vector<std::string>{"rig: another start of it has taken its place"});
 }
 
 TEST_F(MirrorAgentsTest, AreNotLostWhileThisProcessStandsStill) {

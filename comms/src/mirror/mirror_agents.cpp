@@ -212,10 +212,17 @@ void MirrorAgents::withdraw(const Id& agent) {
     if (found != nullptr) found->goodbye = "the agent has ended";
 }
 
-void MirrorAgents::lose(MirrorAgent& agent, const char* why) {
-    if (std::exchange(agent.lost, true)) return;
+// It may be cut off or stand still, and go on: commands to it wait for their answers meanwhile.
+void MirrorAgents::miss(MirrorAgent& agent) {
+    agent.lost = agent.missed = true;
     structuresChanged_ = true;
     if (agent.tables) agent.tables->lose();
+}
+
+void MirrorAgents::lose(MirrorAgent& agent, const char* why) {
+    if (agent.lost && !agent.missed) return;
+    if (!agent.lost) miss(agent);
+    agent.missed = false;
     onLost_(agent, why);
 }
 
@@ -226,14 +233,10 @@ void MirrorAgents::excuse(std::chrono::nanoseconds still, Moment now) {
 void MirrorAgents::tick(const MirrorView& view, Moment now) {
     for (auto each = agents_.begin(); each != agents_.end();) {
         MirrorAgent& agent = each->second;
-        if (!agent.lost && agent.goodbye != nullptr && agent.isGone(now)) {
-            lose(agent, agent.goodbye);
-        }
-        if (!agent.lost && now - agent.heard > agent.patience()) {
-            lose(agent, "the agent is not heard");
-            agent.missed = true;
-        }
+        if (agent.goodbye != nullptr && agent.isGone(now)) lose(agent, agent.goodbye);
+        if (!agent.lost && now - agent.heard > agent.patience()) miss(agent);
         if (now - agent.heard > forgottenAfter) {
+            lose(agent, "the agent was not heard for a minute");
             if (agent.tables) forgottenImages_ += agent.tables->published();
             names_.erase(agentId(each->first));
             forget(agent);

@@ -69,7 +69,7 @@ struct MirrorAgent {
 class MirrorAgents {
 public:
     using Map = std::map<std::string, MirrorAgent, std::less<>>;
-    // Called for each start of an agent that is lost, withdrawn or replaced.
+    // Called for each start of an agent that has ended, was replaced or is forgotten.
     using OnLost = std::function<void(const MirrorAgent& agent, const char* why)>;
 
     explicit MirrorAgents(OnLost onLost) : onLost_{std::move(onLost)} {}
@@ -119,6 +119,7 @@ private:
     void setAside(const Model& model);
     void hear(MirrorAgent& agent, std::int64_t cycle, Moment now);
     void forget(MirrorAgent& agent);
+    void miss(MirrorAgent& agent);
     void lose(MirrorAgent& agent, const char* why);
     void finish(MirrorAgent& agent);
     void findShared();

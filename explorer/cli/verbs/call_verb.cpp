@@ -90,8 +90,11 @@ Json answerJson(const comms::CommandAnswer& answer, const RecordLayout& layout) 
 // Why nothing has come, as far as the presence of the agent and its activity tell.
 void explainSilence(comms::CommandAnswer& answer, const Live& live, const std::string& agent,
                     std::optional<long> percent) {
-    const std::string standstill = live.statusOf(agent).standstill;
-    if (!standstill.empty()) {
+    const comms::AgentStatus status = live.statusOf(agent);
+    const std::string& standstill = status.standstill;
+    if (status.state == "lost") {
+        answer.why = agent + " is not heard: " + answer.why;
+    } else if (!standstill.empty()) {
         answer.why =
             "the loop of " + agent + " " + standstill + ", so nothing is answered; " + answer.why;
     } else if (percent) {
