@@ -30,19 +30,20 @@ const Command& go(const XmlModel& model, const std::string& type) {
 }
 
 TEST(Command, ReadsEveryAttribute) {
-    const XmlModel model =
-        commands(command("available='Standby Active' long='true' timeout='2.5' confirm='true' "
-                         "stops='true' repeated='true' "
-                         "onBusy='replace' onSenderLost='cancel' description='d'",
-                         "<request name='to' kind='float' unit='m' max='1' default='0.5'/>"
-                         "<request name='how' kind='string' capacity='8'/>"
-                         "<response name='error' kind='int' labels='0:None'/>"));
+    const XmlModel model = commands(
+        command("available='Standby Active' long='true' timeout='2.5' confirm='true' "
+                "stops='true' repeated='true' "
+                "onBusy='replace' onInputLost='continue' onSenderLost='cancel' description='d'",
+                "<request name='to' kind='float' unit='m' max='1' default='0.5'/>"
+                "<request name='how' kind='string' capacity='8'/>"
+                "<response name='error' kind='int' labels='0:None'/>"));
     ASSERT_TRUE(isValid(model));
     const Command& c = go(model, "A");
     EXPECT_EQ(c.available.text(), "Standby Active");
     EXPECT_TRUE(c.isLong && c.confirm && c.stops && c.repeated);
     EXPECT_EQ(c.timeout, 2.5);
     EXPECT_EQ(c.onBusy, OnBusy::Replace);
+    EXPECT_EQ(c.onInputLost, OnInputLost::Continue);
     EXPECT_EQ(c.onSenderLost, OnSenderLost::Cancel);
     ASSERT_EQ(c.request.size(), 2U);
     EXPECT_EQ(c.request[0].name, "to");
@@ -197,12 +198,13 @@ TEST(CommandIntersection, ThatIsEmptyNamesBothParents) {
 
 TEST(CommandIntersection, LeavesWhatDiffersToTheChild) {
     const std::string p = command("timeout='1' onBusy='replace'"),
-                      q = command("onSenderLost='cancel'");
+                      q = command("onSenderLost='cancel' onInputLost='continue'");
     const XmlModel open = commands(p, "", q);
-    EXPECT_EQ(open.report.findings.size(), 3U) << open.text();
+    EXPECT_EQ(open.report.findings.size(), 4U) << open.text();
     for (const Finding& each : open.report.findings) EXPECT_EQ(each.rule, "restate");
-    EXPECT_TRUE(isValid(
-        commands(p, "", q, command("timeout='2' onBusy='reject' onSenderLost='continue'"))));
+    EXPECT_TRUE(isValid(commands(
+        p, "", q,
+        command("timeout='2' onBusy='reject' onInputLost='fail' onSenderLost='continue'"))));
 }
 
 }  // namespace

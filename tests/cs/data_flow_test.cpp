@@ -184,6 +184,56 @@ TEST(DataFlow, OnLossFaultEntersFaultAndNamesTheInput) {
         chain.cluster.hasEvent("fault -2: input vital from /s is bad, first cause /z-writer"));
 }
 
+// Of a reader whose input is lost, and is back: what becomes of its long commands.
+TEST(DataFlow, OnLossSafeEndsLongCommandsUnlessTheirTypeSaysOtherwise) {
+    ProbeCluster cluster;
+    Probe& writer = cluster.probe("/writer");
+    Probe& reader = cluster.probe("/reader", "LongProbe");
+    Simplex& signal = cluster.tree.add("/s", "Signal");
+    cluster.tree.relate(writer, "out", signal);
+    cluster.tree.relate(reader, "guarded", signal);
+    cluster.tree.relate(reader, "out", cluster.tree.add("/t", "Signal"));
+    bool broken = false;
+    int calls = 0, lastCalls = 0;
+    writer.onActive = [&](Probe& self, const Tick&) {
+        if (broken) self.setQuality(Quality::Bad);
+    };
+    reader.onWork = [&](Probe&, Call& call) {
+        ++calls;
+        if (call.cancelling()) ++lastCalls;
+        return cortex::Outcome::Running;
+    };
+    cluster.start();
+    cluster.startup(writer);
+    cluster.startup(reader);
+    const std::string lost = "its input guarded from /s is lost";
+    CallResult result;
+
+    const std::uint64_t work = cluster.cluster->send("/reader", "work");
+    cluster.step(3);
+    ASSERT_FALSE(cluster.cluster->program().poll(work, result));
+    broken = true;
+    cluster.step(2);
+    ASSERT_TRUE(cluster.cluster->program().poll(work, result));
+    EXPECT_EQ(result.text(), "Failed: " + lost);
+    EXPECT_EQ(lastCalls, 1) << "it may clean up";
+
+    const int before = calls;
+    EXPECT_EQ(cluster.call("/reader", "work").text(), "Rejected (state): " + lost);
+    EXPECT_EQ(calls, before) << "its handler saw nothing of it";
+    const std::uint64_t keep = cluster.cluster->send("/reader", "keep");
+    cluster.step(3);
+    EXPECT_FALSE(cluster.cluster->program().poll(keep, result)) << result.text();
+    EXPECT_EQ(calls, before + 3);
+
+    broken = false;
+    cluster.step(2);
+    EXPECT_EQ(cluster.call("/reader", "cancel").outcome, cortex::Outcome::Done);
+    const std::uint64_t again = cluster.cluster->send("/reader", "work");
+    cluster.step(3);
+    EXPECT_FALSE(cluster.cluster->program().poll(again, result)) << result.text();
+}
+
 TEST(DataFlow, OnLossSafeSkipsTheStateFunctionWritesSafeDemandsAndResumes) {
     Chain chain{"guarded"};
     Simplex& target = chain.cluster.tree.add("/t", "Signal");

@@ -134,6 +134,7 @@ TypeModel HostileModel::types() {
             command.confirm = often(30);
             command.stops = often(30);
             command.repeated = often(30);
+            command.onInputLost = often(30) ? OnInputLost::Continue : OnInputLost::Fail;
             for (int k = number(0, 5); k > 0; --k) {
                 command.request.push_back(item("given" + std::to_string(k), false));
             }

@@ -14,7 +14,7 @@ void Probe::populate() {
     sum = result<double>("add", "sum");
     on<&Probe::add>("add");
     on<&Probe::poke>("poke");
-    for (const char* command : {"work", "watch"}) {
+    for (const char* command : {"work", "watch", "keep"}) {
         if (type().findCommand(command) != nullptr) on<&Probe::work>(command);
     }
     if (onPopulate) onPopulate(*this);

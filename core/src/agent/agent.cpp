@@ -88,6 +88,14 @@ bool AgentRuntime::cancelActivity(std::uint32_t simplex, LoopThread& thread, boo
     return ports_[simplex] == nullptr || ports_[simplex]->cancelActivity(thread, callHandler, why);
 }
 
+void AgentRuntime::loseInput(std::uint32_t simplex, LoopThread& thread, const EventText& why) {
+    if (ports_[simplex] != nullptr) ports_[simplex]->loseInput(thread, why);
+}
+
+void AgentRuntime::regainInput(std::uint32_t simplex) {
+    if (ports_[simplex] != nullptr) ports_[simplex]->regainInput();
+}
+
 LifeCycle AgentRuntime::takeLifeCycle(std::uint32_t simplex, LoopThread& thread) {
     std::atomic<std::uint8_t>& word = calls_[simplex];
     if (!hasLifeCycle(calls(simplex))) return LifeCycle::None;

@@ -68,6 +68,11 @@ void Activity::cancel(const ChunkClock& clock, bool callHandler, std::string_vie
     stop(clock, callHandler, {Outcome::Cancelled, Reason::None, why});
 }
 
+void Activity::loseInput(const ChunkClock& clock, const EventText& why) {
+    inputLost_ = why;
+    if (running() && !mayRun(*entry_)) stop(clock, true, {Outcome::Failed, Reason::None, why});
+}
+
 void Activity::stop(const ChunkClock& clock, bool callHandler, const Verdict& verdict) {
     try {
         if (callHandler) call(*entry_, false, true);

@@ -43,6 +43,14 @@ public:
     // The last call and the answer Cancelled; without `callHandler` only the answer.
     void cancel(const ChunkClock& clock, bool callHandler, std::string_view why);
 
+    // While an input is lost without which its simplex is safe, only those run whose type says so.
+    void loseInput(const ChunkClock& clock, const EventText& why);  // the last call, and Failed
+    void regainInput() CORTEX_REALTIME { inputLost_ = {}; }
+    bool mayRun(const CommandTable::Entry& entry) const CORTEX_REALTIME {
+        return inputLost_.view().empty() || entry.command->onInputLost == OnInputLost::Continue;
+    }
+    const EventText& inputLost() const { return inputLost_; }
+
 private:
     Verdict call(const CommandTable::Entry& entry, bool first, bool cancelling);
     void finish(const Verdict& verdict, const ChunkClock& clock) CORTEX_REALTIME;
@@ -54,6 +62,7 @@ private:
     Handler handler_;
     Origin origin_;
     std::int64_t startedTime_ = 0;  // nominal
+    EventText inputLost_;           // empty: none that counts
     std::unique_ptr<std::uint64_t[]> request_, response_;
     Data<std::int64_t> outcome_;  // items of the type Activity, where the simplex has them
     Data<std::string_view> name_, requester_;

@@ -269,6 +269,10 @@ bool CommandPort::accepted(const CommandTable::Entry& entry, const std::byte* re
 void CommandPort::startActivity(std::uint32_t command, const std::byte* request,
                                 std::byte* response, const Origin& origin, Verdict& verdict) {
     const CommandTable::Entry& entry = table_.entries[command];
+    if (!activity_->mayRun(entry)) {
+        refuse(verdict, Reason::State, activity_->inputLost());
+        return;
+    }
     if (activity_->running()) {
         if (entry.command->onBusy == OnBusy::Reject) {
             refuse(verdict, Reason::Busy, EventText{activity_->command()} << " is running");
@@ -361,6 +365,17 @@ bool CommandPort::cancelActivity(LoopThread& thread, bool callHandler, std::stri
         return false;
     }
     return true;
+}
+
+void CommandPort::loseInput(LoopThread& thread, const EventText& why) {
+    if (activity_ == nullptr) return;
+    thread_ = &thread;
+    beginLanes();  // the handler may send
+    activity_->loseInput(thread.clock, why);
+}
+
+void CommandPort::regainInput() {
+    if (activity_ != nullptr) activity_->regainInput();
 }
 
 void CommandPort::enqueue(OutsideEntry& entry) {

@@ -48,6 +48,10 @@ public:
     void process(State state, LoopThread& thread, bool dead) CORTEX_REALTIME;
     // Ends the long command, if there is one. False: the handler threw on its last call.
     bool cancelActivity(LoopThread& thread, bool callHandler, std::string_view why);
+    // An input is lost without which demands are safe, or all of them are back: long commands fail
+    // and are refused meanwhile, unless their type says otherwise. It throws what a handler throws.
+    void loseInput(LoopThread& thread, const EventText& why) CORTEX_REALTIME;
+    void regainInput() CORTEX_REALTIME;
     // Between cycles: a command from outside is executed in the next process().
     void enqueue(OutsideEntry& entry) CORTEX_REALTIME;
     // Between cycles: the long command is cancelled in the next process().

@@ -136,6 +136,7 @@ constexpr std::array commandAttributes{
     AttributeReader<C>{"stops", boolInto<&C::stops>},
     AttributeReader<C>{"repeated", boolInto<&C::repeated>},
     AttributeReader<C>{"onBusy", enumInto<&C::onBusy>},
+    AttributeReader<C>{"onInputLost", enumInto<&C::onInputLost>},
     AttributeReader<C>{"onSenderLost", enumInto<&C::onSenderLost>},
     AttributeReader<C>{"description", textInto<&C::description>},
 };

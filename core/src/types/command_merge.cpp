@@ -89,6 +89,7 @@ void intersect(Command& command, const FromParent<Command>& second, const std::s
     };
     differs("timeout", toText(command.timeout), toText(other.timeout));
     differs("onBusy", name(command.onBusy), name(other.onBusy));
+    differs("onInputLost", name(command.onInputLost), name(other.onInputLost));
     differs("onSenderLost", name(command.onSenderLost), name(other.onSenderLost));
     command.confirm = command.confirm || other.confirm;
     command.stops = command.stops && other.stops;
@@ -143,6 +144,8 @@ void narrow(Command& command, const Command& own, const Stated& stated,
     onlyTakenBack("repeated", &Command::repeated, finding::repeatedLoosened);
     if (stated("timeout", own.timeout != 0)) command.timeout = own.timeout;
     if (stated("onBusy", own.onBusy != OnBusy::Reject)) command.onBusy = own.onBusy;
+    if (stated("onInputLost", own.onInputLost != OnInputLost::Fail))
+        command.onInputLost = own.onInputLost;
     if (stated("onSenderLost", own.onSenderLost != OnSenderLost::Continue)) {
         command.onSenderLost = own.onSenderLost;
     }

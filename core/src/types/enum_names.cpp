@@ -21,6 +21,7 @@ const char* name(OnLimit onLimit) { return spelling(onLimit); }
 const char* name(AtRest atRest) { return spelling(atRest); }
 const char* name(OnBusy onBusy) { return spelling(onBusy); }
 const char* name(OnSenderLost onSenderLost) { return spelling(onSenderLost); }
+const char* name(OnInputLost onInputLost) { return spelling(onInputLost); }
 const char* name(OnLeaseLost onLeaseLost) { return spelling(onLeaseLost); }
 const char* name(Quality quality) { return spelling(quality); }
 const char* name(Severity severity) { return spelling(severity); }

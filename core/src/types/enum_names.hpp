@@ -36,6 +36,8 @@ inline constexpr std::array spellings<OnBusy>{"reject", "replace"};
 template <>
 inline constexpr std::array spellings<OnSenderLost>{"continue", "cancel"};
 template <>
+inline constexpr std::array spellings<OnInputLost>{"fail", "continue"};
+template <>
 inline constexpr std::array spellings<OnLeaseLost>{"continue", "hold", "shutdown"};
 
 template <class E>

@@ -138,6 +138,7 @@ std::vector<TypeAttribute> attributesOf(const Command& command) {
                  {"confirm", truth(command.confirm), "false"},
                  {"long", truth(command.isLong), "false"},
                  {"onBusy", name(command.onBusy), name(plain.onBusy)},
+                 {"onInputLost", name(command.onInputLost), name(plain.onInputLost)},
                  {"onSenderLost", name(command.onSenderLost), name(plain.onSenderLost)},
                  {"repeated", truth(command.repeated), "false"},
                  {"stops", truth(command.stops), "false"},

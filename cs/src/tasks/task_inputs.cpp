@@ -95,7 +95,8 @@ void TaskInputs::noteSilence(const Task& task, const Tick& tick) {
 
 SlotState TaskInputs::read(Task& task, const Tick& tick) {
     SlotState sum{tick.cycle, tick.nominalTime, noSimplex, Quality::Good};
-    bool anyLost = false, safe = false;
+    bool anyLost = false;
+    const TaskInput* missed = nullptr;  // the first without which it is safe
     const bool stood = set_.standstill.nominalTime > tick.nominalTime - tick.passed;
     const std::int64_t stoodStill = stood ? set_.standstill.length : 0;
     const TaskDetails* const device = task.measures ? &set_.detailsOf(task) : nullptr;
@@ -112,19 +113,28 @@ SlotState TaskInputs::read(Task& task, const Tick& tick) {
         }
         merge(sum, readUnusual(task, input, now), input.ages);
         anyLost = anyLost || input.lost;
-        safe = safe || (input.lost && input.rule->onLoss == OnLoss::Safe);
+        if (missed == nullptr && input.lost && input.rule->onLoss == OnLoss::Safe) missed = &input;
     }
     SimplexCS& simplex = *task.simplex;
     simplex.inputLost_ = anyLost;
-    if (safe || simplex.safeByLoss_) {
-        safe = safe && !isResting(simplex.state_);
-        if (safe && !simplex.safeByLoss_) {
-            demands_.latchSafe(task, SafeDemands::Latch::Stop);
-            demands_.writeSafe(task);
-        }
-        simplex.safeByLoss_ = safe;
-    }
+    if (missed != nullptr || simplex.safeByLoss_)
+        settleSafety(task, isResting(simplex.state_) ? nullptr : missed);
     return sum;
+}
+
+// `missed`: a lost input without which the simplex is safe; null: there is none now.
+void TaskInputs::settleSafety(Task& task, const TaskInput* missed) {
+    SimplexCS& simplex = *task.simplex;
+    const bool safe = missed != nullptr;
+    if (safe == simplex.safeByLoss_) return;
+    simplex.safeByLoss_ = safe;
+    if (!safe) return set_.agent.regainInput(task.index);
+    demands_.latchSafe(task, SafeDemands::Latch::Stop);
+    demands_.writeSafe(task);
+    EventText why{"its input "};
+    why << missed->rule->name << " from " << set_.structure.simplexes[missed->target].path
+        << " is lost";
+    set_.agent.loseInput(task.index, *simplex.thread_->loop, why);
 }
 
 // An input was lost, or is back.

@@ -42,6 +42,7 @@ private:
     };
     SlotState readUnusual(Task& task, TaskInput& input, Seen now) CORTEX_REALTIME;
     void lossChanged(Task& task, TaskInput& input, Seen now) CORTEX_REALTIME;
+    void settleSafety(Task& task, const TaskInput* missed) CORTEX_REALTIME;
 
     TaskSet& set_;
     TaskDemands& demands_;

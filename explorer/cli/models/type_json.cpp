@@ -106,6 +106,7 @@ Json commandJson(const Command& command) {
               {"stops", command.stops},
               {"repeated", command.repeated},
               {"on_busy", name(command.onBusy)},
+              {"on_input_lost", name(command.onInputLost)},
               {"on_sender_lost", name(command.onSenderLost)},
               {"request", parametersJson(command.request)},
               {"response", parametersJson(command.response)}};

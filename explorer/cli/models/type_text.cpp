@@ -119,6 +119,9 @@ void printCommands(std::ostream& stream, const Type& type) {
         if (command.stops) more.emplace_back("stops");
         if (command.repeated) more.emplace_back("repeated");
         if (command.isLong) more.push_back("on busy " + std::string{name(command.onBusy)});
+        if (command.onInputLost != OnInputLost::Fail) {
+            more.push_back("on input lost " + std::string{name(command.onInputLost)});
+        }
         if (command.onSenderLost != OnSenderLost::Continue) {
             more.push_back("on sender lost " + std::string{name(command.onSenderLost)});
         }

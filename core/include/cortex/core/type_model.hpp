@@ -28,6 +28,7 @@ enum class OnLimit : std::uint8_t { Clamp, Fault };
 enum class AtRest : std::uint8_t { Safe, Writer };
 enum class OnBusy : std::uint8_t { Reject, Replace };
 enum class OnSenderLost : std::uint8_t { Continue, Cancel };
+enum class OnInputLost : std::uint8_t { Fail, Continue };
 enum class OnLeaseLost : std::uint8_t { Continue, Hold, Shutdown };
 
 const char* name(Role role);  // each as written in XML
@@ -37,6 +38,7 @@ const char* name(OnLimit onLimit);
 const char* name(AtRest atRest);
 const char* name(OnBusy onBusy);
 const char* name(OnSenderLost onSenderLost);
+const char* name(OnInputLost onInputLost);
 const char* name(OnLeaseLost onLeaseLost);
 std::optional<Role> roleFromName(std::string_view text);
 
@@ -101,6 +103,7 @@ struct Command {
     double timeout = 0;     // s; 0: none
     OnBusy onBusy = OnBusy::Reject;
     OnSenderLost onSenderLost = OnSenderLost::Continue;
+    OnInputLost onInputLost = OnInputLost::Fail;  // of a long one; an input with onLoss="safe"
     UnknownAttributes unknown;
     std::string definedBy;
     Place place;

@@ -128,6 +128,10 @@ public:
     // passes through.
     bool cancelActivity(std::uint32_t simplex, LoopThread& thread, bool callHandler = true,
                         std::string_view why = "its simplex left Active") CORTEX_REALTIME;
+    // An input is lost without which its demands are safe, or all of them are back: long commands
+    // fail meanwhile, unless their type says otherwise. It throws what a handler throws.
+    void loseInput(std::uint32_t simplex, LoopThread& thread, const EventText& why) CORTEX_REALTIME;
+    void regainInput(std::uint32_t simplex) CORTEX_REALTIME;
 
     // The pending life-cycle word: taken in step (1); `shutdown` outranks the others.
     LifeCycle takeLifeCycle(std::uint32_t simplex, LoopThread& thread) CORTEX_REALTIME;
