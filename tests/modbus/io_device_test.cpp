@@ -172,11 +172,14 @@ TEST_F(ModbusIo, GivesSafeValuesUnlessItIsActiveWhereNoSimplexWritesThem) {
     plant.demand({true, false, true}, {10, 5});
     plant.step(3);
     expectOutputs(plant, "010 3 0");
+    EXPECT_EQ(plant.quality("/fans"), Quality::Stale) << "it shows what does not go out";
 
     plant.startUp();
     expectOutputs(plant, "101 20 7000");
+    EXPECT_EQ(plant.quality("/fans"), Quality::Good);
     EXPECT_TRUE(plant.call("/coupler", "shutdown").done());
     expectOutputs(plant, "010 3 0");
+    EXPECT_EQ(plant.quality("/fans"), Quality::Stale);
 }
 
 TEST_F(ModbusIo, ReadsItsInputsFromHoldingRegistersWhereTheyStandThere) {

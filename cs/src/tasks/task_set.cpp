@@ -48,6 +48,9 @@ struct TaskBuilder {
         return structure.simplexes[simplex].role == Role::Active;
     }
 
+    bool isDevice(std::uint32_t simplex) const {
+        return isActive(simplex) && layout(simplex).type->isA("Device");
+    }
     bool measures(std::uint32_t simplex) const { return layout(simplex).type->measures; }
 
     // What a device says of its link, if its type has such an item (ontology/devices.xml).
@@ -68,8 +71,7 @@ struct TaskBuilder {
         std::vector<std::vector<DemandTaker>> takers(structure.simplexes.size());
         for (const Edge& edge : structure.edges) {
             const bool takes = edge.rule->direction == Direction::Input && !edge.delayed &&
-                               limitsOf[edge.target] != nullptr && isActive(edge.owner) &&
-                               layout(edge.owner).type->isA("Device");
+                               limitsOf[edge.target] != nullptr && isDevice(edge.owner);
             if (takes) takers[edge.target].push_back(takerOf(edge.owner));
         }
         for (std::uint32_t i = 0; i < takers.size(); ++i) {
@@ -184,6 +186,12 @@ struct TaskBuilder {
             input.linkLosses = &agent.linkLosses(edge.target);
         }
         input.state = agent.tables().edgeSource(number).state;
+        const bool isSetPoint =
+            target.role == Role::Modification && target.writers.empty() && !target.remote;
+        if (isSetPoint && isDevice(edge.owner)) {
+            set.setPoints.push_back(
+                {edge.target, static_cast<const SimplexCS*>(&agent.simplex(edge.owner))});
+        }
         if (edge.rule->onLoss == OnLoss::Hold) {
             set.held.push_back(std::make_unique<HeldInput>(
                 HeldInput{target.layout->cyclic, agent.tables().edgeSource(number),

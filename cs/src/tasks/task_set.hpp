@@ -132,6 +132,12 @@ struct Standstill {
     std::int64_t end = 0;           // ns of the monotonic clock; 0: none, or the loop is stepped
 };
 
+// A demand that nobody writes, as people set it, and the device that takes it.
+struct SetPoint {
+    std::uint32_t demand = noSimplex;
+    const SimplexCS* device = nullptr;
+};
+
 // The tasks of a cluster, and what they read and write. Built once by start().
 struct TaskSet {
     TaskSet(AgentRuntime& runtime, const Schedule& schedule, std::int64_t nominalPeriod);
@@ -164,6 +170,7 @@ struct TaskSet {
     ValueRuns runs;
     std::vector<TaskRuns> runsOf;  // of the same tasks
     std::vector<std::unique_ptr<Arbiter>> arbiters;
+    std::vector<SetPoint> setPoints;
     std::vector<TaskThread> threads;
 };
 

@@ -12,6 +12,21 @@ void TaskStates::beginCycle() {
     halted_ = haltNext_;
     haltNext_ = false;
     anyMayMove_ = halted_ || forced_ || watching_;
+    for (const SetPoint& each : set_.setPoints) judge(each);
+}
+
+// A device at rest gives its safe value, and not what people have set.
+void TaskStates::judge(const SetPoint& setPoint) {
+    SlotState& state = set_.states[setPoint.demand];
+    const std::uint32_t device = setPoint.device->index();
+    const bool rests = isResting(setPoint.device->state_);
+    if (rests && state.quality == Quality::Good) {
+        state.quality = Quality::Stale;
+        state.cause = device;
+    } else if (!rests && state.quality == Quality::Stale && state.cause == device) {
+        state.quality = Quality::Good;
+        state.cause = noSimplex;
+    }
 }
 
 void TaskStates::registerWatched(std::uint32_t simplex, Watched& watched) {

@@ -49,6 +49,7 @@ public:
     void watch(bool on) CORTEX_REALTIME { watching_ = on; }
 
 private:
+    void judge(const SetPoint& setPoint) CORTEX_REALTIME;
     bool lifeCycle(Task& task, LifeCycle command, const Tick& tick) CORTEX_REALTIME;
     void enter(Task& task, State to, const Tick& tick) CORTEX_REALTIME;
     bool mayStart(Task& task) CORTEX_REALTIME;
