@@ -240,8 +240,8 @@ TEST(Validation, WarnsOfNoMaxAgeThatHoldsOrIsNotStated) {
 }
 
 TEST(Validation, WarnsWhereALossIsToMakeSafeWhatIsNoDemand) {
-    const auto finding =
-        only(checkSmall(simplex("/g", "Guard", relate("guarded", "/a")) + simplex("/a", "Axis")));
+    const std::string guarded = R"(<relate rule="guarded" to="/a" remote="true"/>)";
+    const auto finding = only(checkSmall(simplex("/g", "Guard", guarded)));
 
     EXPECT_EQ(finding.severity, Severity::Warning);
     EXPECT_EQ(finding.rule, "safe-nothing");
@@ -252,9 +252,42 @@ TEST(Validation, WarnsWhereALossIsToMakeSafeWhatIsNoDemand) {
     EXPECT_TRUE(contains(finding.remedy, "write onLoss=\"propagate\" for rule 'guarded'"));
 
     const auto writes =
-        checkSmall(simplex("/g", "Guard", relate("guarded", "/a") + relate("made", "/d")) +
-                   simplex("/a", "Axis") + simplex("/d", "Lift"));
+        checkSmall(simplex("/g", "Guard", guarded + relate("made", "/d")) + simplex("/d", "Lift"));
     EXPECT_EQ(writes.report.text(), "");
+}
+
+// The safety system of a plant that no simplex tells: its stop would never be seen.
+TEST(Validation, WantsAWriterOfWhatReactsToItsLoss) {
+    const ModelFolder folder;
+    folder.copyOntology();
+    const auto checkWith = [&](const std::string& relates, const std::string& simplexes) {
+        return check(folder.write("system.xml",
+                                  R"(<system name="t"><morphology file="cortex-morphology.xml"/>
+<simplex path="/out" type="RotaryAxisConcept"/>
+<simplex path="/drive" type="SimulatedAxis"><relate rule="demand" to="/out"/>
+<relate rule="observation" to="/axis"/></simplex><simplex path="/axis" type="RotaryAxisConcept"/>
+<simplex path="/jog" type="JogController"><relate rule="demands" to="/out"/>)" +
+                                      relates + "</simplex>" + simplexes + "</system>"));
+    };
+    const std::string axis = R"(<relate rule="axes" to="/axis"/>)";
+    EXPECT_EQ(checkWith(axis, "").report.text(), "") << "its drive writes it";
+
+    const std::string other = R"(<relate rule="axes" to="/other"/>)",
+                      stands = R"(<simplex path="/other" type="RotaryAxisConcept"/>)";
+    const Finding finding = only(checkWith(other, stands));
+    EXPECT_EQ(finding.severity, Severity::Error);
+    EXPECT_EQ(finding.rule, "nobody-writes");
+    EXPECT_EQ(finding.path, "/jog");
+    EXPECT_EQ(finding.place.text(), "system.xml:5");
+    EXPECT_TRUE(contains(finding.message, "has onLoss=\"safe\", but nobody writes /other"))
+        << finding.message;
+    EXPECT_TRUE(contains(finding.remedy, R"(<relate rule="axes" to="/other" remote="true"/>)"))
+        << finding.remedy;
+
+    const std::string remote = R"(<relate rule="axes" to="/other" remote="true"/>)";
+    EXPECT_EQ(checkWith(remote, "").count("nobody-writes"), 0U);
+    EXPECT_EQ(validate(*checkWith(other, stands).tree, Extent::Part).text(), "")
+        << "in a test, whose program writes it";
 }
 
 TEST(Validation, WantsOneUnitForItemsOfOneNameInAPair) {

@@ -165,13 +165,51 @@ TEST(CrossedPairs, AreRefusedOfDevicesWithOneAxisEach) {
         << found.report.text();
 }
 
+// Each device and each controller has one axis, so no two of them have both in their lines.
+TEST(CrossedPairs, AreRefusedOverTheWholeSystemWhereEachHasOneAxis) {
+    const std::string devices = twoDevices;
+    const auto single = [](char axis, char demand) {
+        return R"(<simplex path="/control/)" + std::string{axis} +
+               R"(" type="JogController"><relate rule="axes" to="/seen/)" + axis +
+               R"("/><relate rule="demands" to="/wish/)" + demand + R"("/></simplex>)";
+    };
+    DualAxis straight, crossed, half;
+    straight.append(devices + single('1', '1') + single('2', '2'));
+    crossed.append(devices + single('1', '2') + single('2', '1'));
+    half.append(devices + single('1', '2'));
+
+    EXPECT_EQ(straight.check().report.text(), "");
+    const CheckedModel found = crossed.check();
+    ASSERT_EQ(found.count("pair-crossed"), 2U) << found.report.text();
+    const Finding* first = found.find("pair-crossed");
+    EXPECT_EQ(first->path, "/control/1");
+    EXPECT_TRUE(contains(first->message, "but in /sim/2 /wish/2 (rule 'demand'")) << first->message;
+    EXPECT_TRUE(first->remedy.starts_with(
+        "write <relate rule=\"axes\" to=\"/seen/2\"/> in the place of <relate rule=\"axes\" "
+        "to=\"/seen/1\"/>"))
+        << first->remedy;
+    EXPECT_EQ(half.check().count("pair-crossed"), 1U) << "the other axis has no controller";
+}
+
+// Two motors of one joint, whose own encoder nobody moves.
+TEST(CrossedPairs, AreNoneWhereTwoControllersObserveOneJoint) {
+    DualAxis plant;
+    std::string both;
+    for (const char motor : {'1', '2'}) {
+        both += R"(<simplex path="/control/)" + std::string{motor} +
+                R"(" type="JogController"><relate rule="axes" to="/joint" remote="true"/>)" +
+                R"(<relate rule="demands" to="/wish/)" + motor + R"("/></simplex>)";
+    }
+    plant.append(twoDevices + both);
+
+    EXPECT_EQ(plant.check().count("pair-crossed"), 0U) << plant.check().report.text();
+}
+
 // A sensor that the device does not have: nobody else says whose place it takes.
 TEST(CrossedPairs, AreNoneWhereWhatIsObservedComesFromElsewhere) {
     DualAxis plant;
     plant.append(twoDevices +
-                 "<simplex path=\"/seen/3\" type=\"RotaryAxisObservation\"/>"
-                 "<simplex path=\"/seen/4\" type=\"RotaryAxisObservation\"/>" +
-                 controller("43", "12"));
+                 controller("43", "12", " remote=\"true\" type=\"RotaryAxisObservation\""));
 
     EXPECT_EQ(plant.check().report.text(), "");
 }

@@ -140,7 +140,7 @@ void AgentRuntime::addAgentSimplex() {
 }
 
 void AgentRuntime::checkModel() {
-    report_ = validate(tree_);
+    report_ = validate(tree_, options_.extent);
     if (!report_.ok()) throw ModelError(std::move(report_));
 }
 

@@ -64,6 +64,10 @@ public:
     Pairs(const SimplexTree& writers, std::span<const SimplexTree* const> readers, Report& report)
         : report_{report} {
         for (const auto& [path, simplex] : writers.simplexes()) collectWriters(*simplex);
+        for (const Pairing& each : writers_) {
+            for (std::size_t n = 0; n < each.demanded.size(); ++n)
+                written_[each.observed.path(n)].insert(each.demanded.path(n));
+        }
         for (const SimplexTree* tree : readers) {
             const std::size_t first = readers_.size();
             for (const auto& [path, simplex] : tree->simplexes()) collectReaders(*simplex);
@@ -82,13 +86,16 @@ private:
                     const Rule& demanded);
     void enter(std::size_t reader, bool elsewhere);
     void check(const Pairing& writer) const;
-    static bool isCrossed(const Crossing& crossing);
+    bool isCrossed(const Crossing& crossing) const;
     void report(const Crossing& crossing) const;
     static std::string remedy(const Crossing& crossing);
 
     Report& report_;
     std::vector<Pairing> writers_, readers_;
     std::unordered_map<std::string_view, std::vector<std::size_t>> readersOf_;  // of a demand
+    // What the one and what the other say that each observation is of.
+    using Demands = std::unordered_map<std::string_view, std::set<std::string_view>>;
+    Demands written_, read_;
 };
 
 void Pairs::collectWriters(const Simplex& owner) {
@@ -132,6 +139,7 @@ void Pairs::enter(std::size_t reader, bool elsewhere) {
     const Row& demanded = readers_[reader].demanded;
     for (const auto& [path, place] : demanded.places) {
         if (elsewhere && !demanded.relations[place]->remote) continue;
+        read_[readers_[reader].observed.path(place)].insert(path);
         auto& all = readersOf_[path];
         if (all.size() < mostReaders) all.push_back(reader);
     }
@@ -153,14 +161,16 @@ void Pairs::check(const Pairing& writer) const {
     }
 }
 
-// The demand, and what observes it for the one, both stand with the other, but in two places.
-bool Pairs::isCrossed(const Crossing& c) {
-    const auto elsewhere = [](const Row& row, const std::string& path, std::size_t place) {
-        const std::size_t found = row.find(path);
-        return found != row.size() && found != place;
+// What observes the demand for the one is another demand's for the other, whoever says so.
+bool Pairs::isCrossed(const Crossing& c) const {
+    const std::string &ofWriter = c.writer.observed.path(c.written),
+                      &ofReader = c.reader.observed.path(c.read);
+    if (ofWriter == ofReader) return false;
+    const auto isAnothers = [&](const Demands& demands, const std::string& observed) {
+        const auto found = demands.find(observed);
+        return found != demands.end() && !found->second.contains(c.reader.demanded.path(c.read));
     };
-    return elsewhere(c.reader.observed, c.writer.observed.path(c.written), c.read) ||
-           elsewhere(c.writer.observed, c.reader.observed.path(c.read), c.written);
+    return isAnothers(read_, ofWriter) || isAnothers(written_, ofReader);
 }
 
 void Pairs::report(const Crossing& c) const {
@@ -176,17 +186,24 @@ void Pairs::report(const Crossing& c) const {
 
 std::string Pairs::remedy(const Crossing& c) {
     const Row &written = c.writer.demanded, &read = c.reader.demanded;
+    const Row &observedByWriter = c.writer.observed, &observedByReader = c.reader.observed;
     // What the reader has in the place of what the writer observes.
-    const std::size_t observed = c.reader.observed.find(c.writer.observed.path(c.written));
-    const bool readerHasBoth = observed != c.reader.observed.size();
+    const std::size_t observed = observedByReader.find(observedByWriter.path(c.written));
+    const bool readerHasBoth = observed != observedByReader.size();
     std::size_t other = readerHasBoth ? written.find(read.path(observed)) : written.size();
-    if (other == written.size()) other = c.writer.observed.find(c.reader.observed.path(c.read));
+    if (other == written.size()) other = observedByWriter.find(observedByReader.path(c.read));
     const std::string instead = readerHasBoth ? "; if the order in " + c.reader.owner->path() +
                                                     " is wrong, exchange " + line(read, c.read) +
                                                     " and " + line(read, observed)
                                               : "";
     if (other < written.size()) return "exchange this line and " + line(written, other) + instead;
-    return "write " + relateText(written.relations[c.written]->rule, read.path(observed)) + instead;
+    if (readerHasBoth)
+        return "write " + relateText(written.relations[c.written]->rule, read.path(observed)) +
+               instead;
+    return "write " +
+           relateText(observedByWriter.relations[c.written]->rule, observedByReader.path(c.read)) +
+           " in the place of " + line(observedByWriter, c.written) + "; if " +
+           c.reader.owner->path() + " is wrong, relate another demand or observation there";
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ void checkSimplex(const Checked& checked, const Simplex& simplex) {
     checkRate(checked, simplex);
 }
 
-Report validate(const SimplexTree& tree) {
+Report validate(const SimplexTree& tree, Extent extent) {
     Report report;
     std::shared_ptr<const Structure> structure;
     try {
@@ -105,6 +105,7 @@ Report validate(const SimplexTree& tree) {
     }
     checkCrossedPairs(tree, std::array{&tree}, report);
     checkFlow(checked);
+    if (extent == Extent::Whole) checkUnwritten(checked);
     checkDelayedDemands(checked);
     return report;
 }

@@ -41,6 +41,8 @@ void reportUnknownItem(const TypeModel& types, const Simplex& simplex,
                        const Simplex::Setting& setting, Report& report);
 // Over all relationships: writers, demands without a safe value, loops.
 void checkFlow(const Checked& checked);
+// Inputs that react to a loss, and can never see one, as nobody writes them.
+void checkUnwritten(const Checked& checked);
 // Demands that a delayed output makes observations, so that no safe value stands.
 void checkDelayedDemands(const Checked& checked);
 

@@ -7,6 +7,7 @@
 #include "model/validation_checks.hpp"
 
 #include <algorithm>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -42,6 +43,7 @@ public:
     void checkLoops();
     void checkAges();
     void checkLoss();
+    void checkUnwritten();
 
 private:
     const Edge& edge(std::uint32_t index) const { return checked_.structure.edges[index]; }
@@ -342,7 +344,33 @@ void Flow::checkLoss() {
     }
 }
 
+// A stop that no simplex tells is never seen, and neither is its loss.
+void Flow::checkUnwritten() {
+    std::set<std::uint32_t> told;
+    for (std::uint32_t index = 0; index < relations_.size(); ++index) {
+        const Edge& each = edge(index);
+        const SimplexInfo& target = info(each.target);
+        const bool reacts =
+            each.rule->direction == Direction::Input && info(each.owner).role == Role::Active &&
+            (each.rule->onLoss == OnLoss::Safe || each.rule->onLoss == OnLoss::Fault);
+        const bool hasSource =
+            target.remote || target.role == Role::Active || !target.writers.empty() ||
+            std::ranges::any_of(target.layout->type->data,
+                                [](const DataItem& item) { return !item.settable.empty(); });
+        if (!reacts || hasSource || !told.insert(each.target).second) continue;
+        checked_.report.error(owner(each).path(), finding::nobodyWrites, relations_[index]->place,
+                              ruleText(owner(each), *each.rule) + " has onLoss=\"" +
+                                  name(each.rule->onLoss) + "\", but nobody writes " + target.path +
+                                  ", so it never changes and is never lost",
+                              "add the simplex that writes it; if another agent has it, write " +
+                                  relateText(each.rule->name, target.path, "remote=\"true\"") +
+                                  "; if people set it, give its type a settable item");
+    }
+}
+
 }  // namespace
+
+void checkUnwritten(const Checked& checked) { Flow{checked}.checkUnwritten(); }
 
 void checkFlow(const Checked& checked) {
     Flow flow{checked};

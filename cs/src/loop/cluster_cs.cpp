@@ -45,6 +45,7 @@ struct ClusterCS::Implementation {
     StartOrder startOrder(const TaskGraph& graph, std::span<const std::uint32_t> order) const;
     void populate(std::span<SimplexCS* const> simplexes) const;
     void joinSettings(SimplexCS& simplex, Report& report) const;
+    void checkManagers() const;
     void warnOfModel() const;
     void endIoThreads();
     [[noreturn]] void endProcess(const std::string& why) const;
@@ -207,6 +208,37 @@ void ClusterCS::Implementation::populate(std::span<SimplexCS* const> simplexes) 
     if (!report.ok()) refuse(std::move(report));
 }
 
+// A demand with several writers is handed over by one manager, or by none: two know nothing of each
+// other.
+void ClusterCS::Implementation::checkManagers() const {
+    Report report;
+    const auto& simplexes = agent->structure().simplexes;
+    for (const SimplexInfo& demand : simplexes) {
+        const auto managerOf = [&](std::uint32_t writer) {
+            return static_cast<const SimplexCS&>(agent->simplex(writer)).manager_;
+        };
+        if (demand.remote || demand.writers.size() < 2) continue;
+        const std::uint32_t first = demand.writers.front();
+        for (const std::uint32_t each : demand.writers) {
+            if (managerOf(each) == managerOf(first)) continue;
+            const auto text = [&](std::uint32_t writer) {
+                const std::uint32_t manager = managerOf(writer);
+                return simplexes[writer].path + ", which " +
+                       (manager == noSimplex ? "nobody" : simplexes[manager].path) + " manages";
+            };
+            const std::uint32_t manager =
+                managerOf(first) != noSimplex ? managerOf(first) : managerOf(each);
+            report.error(demand.path, finding::twoManagers, agent->simplex(manager).place(),
+                         "it is written by " + text(first) + ", and by " + text(each) +
+                             ": both could have it at once",
+                         "let " + simplexes[manager].path +
+                             " choose between all of them, or give each a demand of its own");
+            break;
+        }
+    }
+    if (!report.ok()) refuse(std::move(report));
+}
+
 void ClusterCS::Implementation::warnOfModel() const {
     for (const Finding& finding : agent->warnings().findings) {
         EventText text{finding.message};
@@ -281,6 +313,7 @@ void ClusterCS::startAll() {
     options.memory = self.options.memory;
     options.realTime = self.trigger->realTime();
     options.devices = self.options.devices;
+    options.extent = self.test.extent;
     self.agent = std::make_unique<AgentRuntime>(self.name, *self.tree, options);
     if (Report report = missingClasses(*self.agent, self.registry); !report.ok())
         refuse(std::move(report));
@@ -289,6 +322,7 @@ void ClusterCS::startAll() {
     self.agent->setCanonicalOrder(order);
     const std::vector<SimplexCS*> simplexes = self.activeInOrder(order);
     self.populate(simplexes);
+    self.checkManagers();
     Schedule schedule =
         makeSchedule(graph, {threads, self.test.chunkSize, {}, self.test.forceThreads});
     self.agent->addInterface(self.program);

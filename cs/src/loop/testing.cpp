@@ -95,6 +95,7 @@ void TestPlant::start() {
     if (!report.ok()) throw ModelError(std::move(report));
     cluster().addSimplexTree(tree());
     cluster().useClasses(classes());
+    ClusterTesting::judgeAsPart(cluster());
     cluster().start();
     step();
 }
@@ -192,6 +193,8 @@ std::string TestPlant::differences(const Values& one, const Values& other) {
 void ClusterTesting::set(ClusterCS& cluster, TestOptions options) {
     optionsOf(cluster) = std::move(options);
 }
+
+void ClusterTesting::judgeAsPart(ClusterCS& cluster) { optionsOf(cluster).extent = Extent::Part; }
 
 void ClusterTesting::onThreadStart(ClusterCS& cluster, std::function<void()> function) {
     std::function<void(std::uint32_t)>& all = optionsOf(cluster).onThreadStart;

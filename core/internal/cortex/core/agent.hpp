@@ -12,6 +12,7 @@
 #include "cortex/core/tables.hpp"
 #include "cortex/core/tick.hpp"
 #include "cortex/core/transport.hpp"
+#include "cortex/core/validation.hpp"
 
 #include <atomic>
 #include <cstdint>
@@ -40,6 +41,7 @@ struct AgentOptions {
     std::int64_t epoch = 0;                 // of this start, UTC microseconds; 0: now
     bool realTime = false;                  // false: stepped, so that only nominal time counts
     bool devices = true;                    // false: their threads do not run
+    Extent extent = Extent::Whole;
     std::string files{};                    // folder of what simplexes read and write; "": none
     std::shared_ptr<EventMemory> memory{};  // of the past; null: one of the usual size
 };

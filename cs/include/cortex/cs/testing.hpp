@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cortex/core/validation.hpp"
 #include "cortex/cs/cluster_cs.hpp"
 
 #include <chrono>
@@ -89,10 +90,12 @@ struct TestOptions {
     std::function<void(std::uint32_t thread)> onThreadStart{};
     // After which stop() ends the process, where no cycle comes or ends meanwhile.
     std::chrono::milliseconds endBudget{1500};
+    Extent extent = Extent::Whole;  // of the system: in a part nobody need write what it reads
 };
 
 struct ClusterTesting {
     static void set(ClusterCS& cluster, TestOptions options);  // before start()
+    static void judgeAsPart(ClusterCS& cluster);               // after set()
     // Beside that of the options, after set().
     static void onThreadStart(ClusterCS& cluster, std::function<void()> function);
     // What this thread runs now, where it is one of a loop; all empty: no hook. The texts stay as
