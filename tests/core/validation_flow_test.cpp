@@ -284,8 +284,15 @@ TEST(Validation, WantsAWriterOfWhatReactsToItsLoss) {
     EXPECT_TRUE(contains(finding.remedy, R"(<relate rule="axes" to="/other" remote="true"/>)"))
         << finding.remedy;
 
-    const std::string remote = R"(<relate rule="axes" to="/other" remote="true"/>)";
-    EXPECT_EQ(checkWith(remote, "").count("nobody-writes"), 0U);
+    // What another agent has is known by the target of the rule, unless the system says more.
+    const std::string remote = R"(<relate rule="axes" to="/other" remote="true")";
+    const auto unnamed = checkWith(remote + "/>", "");
+    EXPECT_EQ(unnamed.count("nobody-writes"), 0U);
+    ASSERT_NE(unnamed.find("observed-counterpart"), nullptr) << unnamed.report.text();
+    const std::string named = remote + R"( type="RotaryAxisConcept"/>)";
+    EXPECT_TRUE(contains(unnamed.find("observed-counterpart")->remedy, named))
+        << unnamed.report.text();
+    EXPECT_EQ(checkWith(named, "").report.text(), "");
     EXPECT_EQ(validate(*checkWith(other, stands).tree, Extent::Part).text(), "")
         << "in a test, whose program writes it";
 }

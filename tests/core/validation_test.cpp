@@ -286,6 +286,8 @@ TEST(Validation, TakesRemoteSimplexesAsInputsOnly) {
 
     EXPECT_EQ(output.rule, "remote-output");
     EXPECT_EQ(output.place.line, 4);
+    EXPECT_TRUE(contains(output.remedy, "a rule with direction=\"input\" and target=\"Lamp\""))
+        << output.remedy;
     EXPECT_TRUE(local.report.findings.empty()) << local.report.text();
     EXPECT_EQ(noAxis.rule, "target-type");
     EXPECT_EQ(malformed.rule, "malformed-path");

@@ -60,6 +60,7 @@ private:
                           delayed ? "delayed=\"true\"" : "");
     }
 
+    static bool hasSource(const SimplexInfo& target);
     void checkSecondWriter(std::uint32_t index);
     void checkSecondRule(std::uint32_t first, std::uint32_t second);
     void checkMixed(const std::vector<std::uint32_t>& outputs);
@@ -217,7 +218,10 @@ std::string Flow::observationError(const Edge& output, std::string_view rule,
     }
     const SimplexInfo& observed = info(observing[position].target);
     const DataItem* found = observed.layout->type->findData(item.name);
-    if (found == nullptr) return "observes " + observed.path + ", which has no '" + item.name + "'";
+    if (found == nullptr) {
+        return "observes " + observed.path + ", a " + observed.layout->type->name +
+               ", which has no '" + item.name + "'";
+    }
     const bool same =
         found->kind == item.kind && found->length == item.length && found->unit == item.unit;
     return same ? "" : "observes " + observed.path + ", whose '" + item.name + "' is another value";
@@ -231,6 +235,14 @@ std::string Flow::counterpartRemedy(const Edge& output, const DataItem& item) co
                output.rule->place.text() + ")";
     }
     const std::string& rule = output.rule->counterpart;
+    for (const Edge& observing : edgesUnder(output.owner, rule)) {
+        const SimplexInfo& observed = info(observing.target);
+        const std::string& demanded = info(output.target).layout->type->name;
+        if (!observed.remote || observed.layout->type->isA(demanded)) continue;
+        const std::string type = "type=\"" + demanded + "\"";
+        return "say of which type it is in its agent: write " +
+               relateText(rule, observed.path, "remote=\"true\" " + type);
+    }
     return rule.empty() ? "add an input rule that observes it, and name it as counterpart"
                         : "relate a simplex that has '" + item.name + "' with " +
                               relateText(rule, "…") + ", in the order of the demands";
@@ -344,26 +356,39 @@ void Flow::checkLoss() {
     }
 }
 
-// A stop that no simplex tells is never seen, and neither is its loss.
+// Whether anything could ever change what an input reads.
+bool Flow::hasSource(const SimplexInfo& target) {
+    return target.remote || target.role == Role::Active || !target.writers.empty() ||
+           std::ranges::any_of(target.layout->type->data,
+                               [](const DataItem& item) { return !item.settable.empty(); });
+}
+
+// A stop that no simplex tells is never seen, and neither is its loss. One finding for each rule.
 void Flow::checkUnwritten() {
     std::set<std::uint32_t> told;
-    for (std::uint32_t index = 0; index < relations_.size(); ++index) {
-        const Edge& each = edge(index);
-        const SimplexInfo& target = info(each.target);
-        const bool reacts =
-            each.rule->direction == Direction::Input && info(each.owner).role == Role::Active &&
-            (each.rule->onLoss == OnLoss::Safe || each.rule->onLoss == OnLoss::Fault);
-        const bool hasSource =
-            target.remote || target.role == Role::Active || !target.writers.empty() ||
-            std::ranges::any_of(target.layout->type->data,
-                                [](const DataItem& item) { return !item.settable.empty(); });
-        if (!reacts || hasSource || !told.insert(each.target).second) continue;
-        checked_.report.error(owner(each).path(), finding::nobodyWrites, relations_[index]->place,
-                              ruleText(owner(each), *each.rule) + " has onLoss=\"" +
-                                  name(each.rule->onLoss) + "\", but nobody writes " + target.path +
-                                  ", so it never changes and is never lost",
+    for (std::uint32_t index = 0; index < relations_.size();) {
+        const std::uint32_t first = index;
+        const Rule& rule = *edge(first).rule;
+        const bool reacts = rule.direction == Direction::Input &&
+                            info(edge(first).owner).role == Role::Active &&
+                            (rule.onLoss == OnLoss::Safe || rule.onLoss == OnLoss::Fault);
+        std::vector<std::string> unwritten;
+        std::uint32_t at = first;
+        for (; index < relations_.size(); ++index) {
+            const Edge& each = edge(index);
+            if (each.owner != edge(first).owner || each.rule != &rule) break;
+            if (!reacts || hasSource(info(each.target)) || !told.insert(each.target).second)
+                continue;
+            if (unwritten.empty()) at = index;
+            unwritten.push_back(info(each.target).path);
+        }
+        if (unwritten.empty()) continue;
+        checked_.report.error(owner(edge(at)).path(), finding::nobodyWrites, relations_[at]->place,
+                              ruleText(owner(edge(at)), rule) + " has onLoss=\"" +
+                                  name(rule.onLoss) + "\", but nobody writes " +
+                                  listText(unwritten) + ": never changed, never lost",
                               "add the simplex that writes it; if another agent has it, write " +
-                                  relateText(each.rule->name, target.path, "remote=\"true\"") +
+                                  relateText(rule.name, unwritten.front(), "remote=\"true\"") +
                                   "; if people set it, give its type a settable item");
     }
 }

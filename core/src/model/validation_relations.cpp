@@ -79,7 +79,10 @@ void checkRemote(const Checked& checked, const Simplex& owner, const Rule& rule,
     if (rule.direction == Direction::Output) {
         checked.report.error(owner.path(), finding::remoteOutput, relation.place,
                              text + " is an output; data of another agent is only read",
-                             "remove this <relate>, and act on " + relation.target + " by command");
+                             "give " + owner.type().name +
+                                 " a rule with direction=\"input\" and target=\"" + rule.target +
+                                 "\", relate it under that one, and send it "
+                                 "commands from there");
     } else if (const auto wrong = SimplexTree::pathError(relation.target); !wrong.empty()) {
         checked.report.error(owner.path(), finding::malformedPath, relation.place,
                              text + ": path '" + relation.target + "': " + wrong,

@@ -34,9 +34,14 @@ const ItemLayout& itemAt(const TypeLayout& layout, std::string_view path, std::s
     if (found != nullptr) return *found;
     std::vector<std::string> names;
     for (const ItemLayout& each : layout.items) names.push_back(each.item->name);
-    throwUnknown(std::string{path} + ": type " + layout.type->name + " has no item '" +
-                     std::string{item} + "'",
-                 item, names);
+    const std::string message = std::string{path} + ": type " + layout.type->name +
+                                " has no item '" + std::string{item} + "'";
+    // Nothing is known of what another agent has, unless the system file says its type.
+    if (names.empty())
+        throw Error(message +
+                    "; where another agent has it, give its <relate> the type that it "
+                    "has there: type=\"…\"");
+    throwUnknown(message, item, names);
 }
 
 std::uint32_t simplexAt(const Structure& structure, std::string_view path) {

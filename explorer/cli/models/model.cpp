@@ -102,7 +102,11 @@ Model readSystem(std::span<const fs::path> files) {
     // only if every file was read.
     const bool whole =
         model.types().find("Agent") != nullptr || (model.hasSystem && !lacksPart(model.report));
-    if (whole) model.report.append(validate(*model.tree));
+    if (whole) {
+        // Without a cluster it is a part of others, such as an arm that several cells include.
+        const bool isPart = model.tree->description().clusters.empty();
+        model.report.append(validate(*model.tree, isPart ? Extent::Part : Extent::Whole));
+    }
     if (whole && model.report.ok()) {
         model.report.append(checkSending(*model.tree, *makeStructure("", *model.tree)));
     }
