@@ -297,6 +297,28 @@ TEST(Validation, WantsAWriterOfWhatReactsToItsLoss) {
         << "in a test, whose program writes it";
 }
 
+TEST(Validation, AsksWhetherTheRangeOfARotaryAxisIsInDegrees) {
+    const ModelFolder folder;
+    folder.copyOntology();
+    const auto checkRange = [&](const std::string& range) {
+        folder.write("own.xml", R"(<ontology name="own"><include file="robotics.xml"/>
+<type name="Table" extends="RotaryAxisConcept" version="1.0"><data name="position" )" +
+                                    range + "/></type></ontology>");
+        return check(folder.write("system.xml",
+                                  R"(<system name="t"><ontology file="own.xml"/>
+<morphology file="cortex-morphology.xml"/><simplex path="/a" type="Table"/>
+<simplex path="/b" type="Table"/></system>)"));
+    };
+    EXPECT_EQ(checkRange(R"(min="-3.2" max="99")").report.text(), "");
+    const Finding finding = only(checkRange(R"(min="-180" max="90")"));
+    EXPECT_EQ(finding.severity, Severity::Warning);
+    EXPECT_EQ(finding.rule, "angle-range");
+    EXPECT_EQ(finding.place.text(), "own.xml:2");
+    EXPECT_TRUE(contains(finding.message, "reaches to 180 rad, which is 29 turns"))
+        << finding.message;
+    EXPECT_EQ(finding.remedy, "write 3.1416 for 180 degrees");
+}
+
 TEST(Validation, WantsOneUnitForItemsOfOneNameInAPair) {
     const std::string parts = simplex("/lift", "Lift") + simplex("/slide", "Slide") +
                               simplex("/lift2", "Lift") + simplex("/slide2", "Slide");

@@ -235,6 +235,24 @@ TEST(GroupCommands, CountThoseThatAnAnswerHasNoRoomFor) {
     EXPECT_TRUE(cluster.hasEvent("/r5: waits for /first, which is in Fault"));
 }
 
+// As of a loop of 1 Hz, whose stopTimeout is two periods.
+TEST(GroupCommands, ShutEachLevelDownAtAStopHoweverFewPeriodsTheStopTimeoutHas) {
+    ProbeCluster cluster{{.stopTimeout = 0.002}};
+    std::vector<Probe*> probes;
+    for (const char* path : {"/p1", "/p2", "/p3", "/p4", "/p5", "/p6"}) {
+        Probe& each = cluster.probe(path);
+        if (!probes.empty()) cluster.tree.relate(each, "before", *probes.back());
+        probes.push_back(&each);
+    }
+    cluster.start();
+    for (Probe* each : probes) cluster.startup(*each);
+
+    EXPECT_TRUE(cluster.cluster->stop());
+
+    EXPECT_EQ(cluster.cluster->notShutDown(), std::vector<std::string>{});
+    for (const Probe* each : probes) EXPECT_EQ(each->state(), State::Standby) << each->path();
+}
+
 TEST(GroupCommands, NameWhoDidNotGetThroughTheShutdownOfAStop) {
     ProbeCluster cluster{{.stopTimeout = 0.05}};
     Simplex& signal = cluster.tree.add("/s", "Signal");

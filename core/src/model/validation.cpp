@@ -77,6 +77,7 @@ void checkRate(const Checked& checked, const Simplex& simplex) {
 void checkModel(const Checked& checked) {
     checkAgentType(checked);
     checkClusterPath(checked);
+    checkAngles(checked);
 }
 
 void checkSimplex(const Checked& checked, const Simplex& simplex) {

@@ -34,6 +34,8 @@ std::string meantRule(const Checked& checked, const Simplex& owner,
 void checkCounts(const Checked& checked, const Simplex& simplex);
 // Items that belong together but have different units.
 void checkUnits(const Checked& checked, const Simplex& owner);
+// Ranges of rotary axes that look like degrees.
+void checkAngles(const Checked& checked);
 void checkSettings(const Checked& checked, const Simplex& simplex);
 // Items that must be above another one, as settings and defaults give them.
 void checkAboveOther(const Checked& checked, const Simplex& simplex);

@@ -7,7 +7,9 @@
 #include "types/unit.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
+#include <variant>
 
 namespace cortex {
 namespace {
@@ -112,7 +114,32 @@ void Units::checkFlow() const {
     }
 }
 
+constexpr double mostTurned = 100;  // rad: some sixteen turns, more than nearly all axes have
+constexpr double degree = 3.14159265358979323846 / 180;
+
 }  // namespace
+
+void checkAngles(const Checked& checked) {
+    std::set<const Type*> types;
+    for (const auto& [path, simplex] : checked.tree.simplexes()) {
+        const DataItem* position = simplex->type().findData("position");
+        if (position == nullptr || position->unit != "rad") continue;
+        double most = 0;
+        for (const auto& bound : {position->min, position->max}) {
+            const double* number = bound ? std::get_if<double>(&*bound) : nullptr;
+            if (number != nullptr && std::isfinite(*number))
+                most = std::max(most, std::abs(*number));
+        }
+        if (most <= mostTurned || !types.insert(&simplex->type()).second) continue;
+        checked.report.warning(path, finding::angleRange, position->place,
+                               "position of type " + simplex->type().name + " reaches to " +
+                                   toText(most) + " rad, which is " +
+                                   toText(std::round(most / degree / 360)) +
+                                   " turns: are these degrees?",
+                               "write " + toText(std::round(most * degree * 1e4) / 1e4) + " for " +
+                                   toText(most) + " degrees");
+    }
+}
 
 void checkUnits(const Checked& checked, const Simplex& owner) {
     const Units units{checked, owner};

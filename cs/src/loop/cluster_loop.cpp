@@ -310,10 +310,13 @@ void ClusterLoop::checkOverflow() {
 }
 
 // After the last tick: everything to Standby level by level, then by force, until all demands are
-// safe, too; the last write is the last cycle's.
+// safe, too; the last write is the last cycle's. A loop with so few periods in its time that not
+// all levels would have theirs runs faster then.
 void ClusterLoop::shutDown() {
-    const std::int64_t period = trigger_.period();
     const std::int64_t stopBudget = std::llround(options_.stopTimeout * 1e9);
+    const std::int64_t least = 2 * group_.levels() + 2;
+    const std::int64_t period =
+        std::min(trigger_.period(), std::max<std::int64_t>(stopBudget / least, 1));
     const std::int64_t budget = std::max<std::int64_t>(stopBudget / period, 2);
     Trigger trigger = last_;
     trigger.periods = 1;

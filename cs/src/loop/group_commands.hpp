@@ -36,6 +36,8 @@ public:
     // Who did not follow, and why, a line each. After the loop.
     std::vector<std::string> notFollowed() const;
 
+    std::int64_t levels() const { return static_cast<std::int64_t>(order_.levels.size()); }
+
 private:
     // An active simplex, and what becomes of it in the command that runs.
     struct Member {

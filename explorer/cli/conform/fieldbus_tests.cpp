@@ -16,14 +16,14 @@ constexpr double rounding = 1e-9;
 constexpr double goesOnTime = 1;  // s, at least, for the next exchange
 
 struct Counts {
-    double exchanges = 0, late = 0, errors = 0, reconnects = 0, seconds = 0;
+    double exchanges = 0, late = 0, errors = 0, reconnects = 0, seconds = 0, cycles = 0;
 };
 
 Counts countsOf(Bench& bench, const Sample& sample) {
     const auto at = [&](std::size_t i) {
         return sample.at(bench.plant().device, Honesty::counterNames[i]);
     };
-    return {at(0), at(1), at(2), at(3), sample.seconds()};
+    return {at(0), at(1), at(2), at(3), sample.seconds(), static_cast<double>(sample.cycle)};
 }
 
 std::string linkText(Bench& bench) {
@@ -82,7 +82,9 @@ Judgement exchangesCounted(Bench& bench, std::size_t) {
     const Counts end = countsOf(bench, bench.now());
     const double time = end.seconds - begin.seconds, answered = end.exchanges - begin.exchanges;
     const double most = std::floor(time / periods.shortest + slack(bench, periods.shortest));
-    const double least = attended * time / periods.longest - slack(bench, periods.longest);
+    // What an agent did not run, its device had no reason to exchange.
+    const double ran = std::min(time, (end.cycles - begin.cycles) * bench.period());
+    const double least = attended * ran / periods.longest - slack(bench, periods.longest);
     const double late = end.late - begin.late, errors = end.errors - begin.errors;
     const bool isExcused = late + errors + end.reconnects - begin.reconnects > 0;
     const std::string seen = numberText(answered, 9) + " in " + numberText(time) + " s, " +
@@ -95,7 +97,7 @@ Judgement exchangesCounted(Bench& bench, std::size_t) {
     }
     if (answered < least && !isExcused) {
         return failed("exchangeCount grew by " + seen + ", and about " +
-                      numberText(std::ceil(time / periods.longest), 9) +
+                      numberText(std::ceil(ran / periods.longest), 9) +
                       " were due: those that are missing are counted neither as late nor as "
                       "errors; look at where it counts");
     }

@@ -60,6 +60,7 @@ inline constexpr char safeNothing[] = "safe-nothing";
 inline constexpr char observedCounterpart[] = "observed-counterpart";
 inline constexpr char pairUnit[] = "pair-unit";
 inline constexpr char pairCrossed[] = "pair-crossed";
+inline constexpr char angleRange[] = "angle-range";
 inline constexpr char flowUnit[] = "flow-unit";
 inline constexpr char loop[] = "loop";
 
