@@ -140,6 +140,42 @@ TEST(CortexValidate, LooksForThePathsOfAnotherAgentInTheOtherSystem) {
     EXPECT_TRUE(contains(other.output, "[arm.xml:69]")) << other.output;
 }
 
+TEST(CortexValidate, OfSeveralSystemsFindsAgentsOfOneNameAndPathsThatTwoHave) {
+    const ModelFolder folder;
+    const auto write = [&](const std::string& file, const std::string& agent,
+                           const std::string& path) {
+        folder.write(file,
+                     "<system name=\"t\"><morphology file=\"cortex-morphology.xml\"/>\n"
+                     "<cluster name=\"" +
+                         agent +
+                         "\" frequency=\"100\"/>\n"
+                         "<simplex path=\"" +
+                         path + "\" type=\"RotaryAxisConcept\"/></system>");
+    };
+    write("left.xml", "robot", "/arm");
+    write("right.xml", "robot", "/arm");
+    write("other.xml", "line", "/arm");
+    write("third.xml", "third", "/table");
+    const auto validate = [&](std::vector<std::string> files) {
+        files.insert(files.begin(), {"validate", "--json"});
+        return cortex(files, {}, folder.path());
+    };
+
+    const Outcome names = validate({"left.xml", "right.xml"});
+    EXPECT_EQ(names.exit, 1) << names.output;
+    ASSERT_EQ(findingsOf(names).size(), 2U) << names.output;
+    EXPECT_EQ(findingsOf(names).at(0)["rule"], "agent-twice");
+    EXPECT_EQ(findingsOf(names).at(0)["path"], "/robot");
+    EXPECT_EQ(findingsOf(names).at(0)["line"], 2);
+
+    const Outcome paths = validate({"left.xml", "other.xml", "third.xml"});
+    EXPECT_EQ(paths.exit, 0) << "one may be the spare of the other";
+    ASSERT_EQ(findingsOf(paths).size(), 1U) << paths.output;
+    EXPECT_EQ(findingsOf(paths).at(0)["rule"], "path-twice");
+    EXPECT_EQ(findingsOf(paths).at(0)["path"], "/arm");
+    EXPECT_EQ(validate({"left.xml", "third.xml"}).exit, 0);
+}
+
 // The plant examples/ds402_dual_axis with two lines exchanged: each axis would run to the place of
 // the other one.
 TEST(CortexValidate, RefusesADriveThatIsToldWhatItsOtherAxisIsToDo) {
@@ -191,7 +227,10 @@ Outcome validateDriveElsewhere(const std::string& first, const std::string& seco
                            both("demands", "/demand") + "<relate rule=\"setpoints\" to=\"" + first +
                            "\"/>\n<relate rule=\"setpoints\" to=\"" + second +
                            "\"/>\n</simplex>\n" + simplexes("/set", "Ds402RotaryModification") +
-                           simplexes("/demand", "RotaryAxisConcept")));
+                           simplexes("/demand", "RotaryAxisConcept") +
+                           "<simplex path=\"/pose\" type=\"AxisPoseController\">\n" +
+                           both("axes", "/axis", remote("Observation")) +
+                           both("demands", "/demand") + "</simplex>\n"));
     return cortex({"validate", "drive.xml", "lead.xml"}, {}, folder.path());
 }
 
@@ -264,7 +303,10 @@ TEST(CortexValidate, TakesSeveralFilesAsOneModel) {
 TEST(CortexValidate, ChecksEachOfSeveralSystemsAlone) {
     const ModelFolder folder;
     folder.write("one.xml", systemOf("<simplex path=\"/axis\" type=\"RotaryAxisConcept\"/>\n"));
-    folder.write("two.xml", systemOf("<simplex path=\"/axis\" type=\"LinearAxisConcept\"/>\n"));
+    std::string two = systemOf("<simplex path=\"/table\" type=\"LinearAxisConcept\"/>\n");
+    const std::string name = "cluster name=\"test\"";
+    ASSERT_NE(two.find(name), std::string::npos) << two;
+    folder.write("two.xml", two.replace(two.find(name), name.size(), "cluster name=\"two\""));
 
     const Outcome outcome = cortex({"validate", "one.xml", "two.xml"}, {}, folder.path());
 

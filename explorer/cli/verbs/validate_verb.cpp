@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "models/remote_paths.hpp"
+#include "models/shared_paths.hpp"
 #include "verbs/verbs.hpp"
 
 #include <algorithm>
@@ -37,6 +38,7 @@ std::vector<Checked> check(const Paths& files) {
     }
     std::vector<Model*> models;
     for (Checked& each : checked) models.push_back(&each.model);
+    checkSharedPaths(models);
     checkRemotePaths(models);
     return checked;
 }
