@@ -147,6 +147,7 @@ Observation runOnThreads(const Plan& plan, std::uint32_t threads, std::uint64_t 
     cs::ClusterTesting::set(cluster, {.forceThreads = true,
                                       .chunkSize = plan.chunkSize,
                                       .endBudget = test::patience});  // nor is it at the end
+    cs::ClusterTesting::judgeAsPart(cluster);  // random systems read what nobody writes
     cluster.addSimplexTree(tree);
     auto& trigger = cluster.setTriggerSource<cs::ManualTrigger>(std::chrono::nanoseconds{period});
     auto& script = cluster.addInterface<ScriptInterface>(plan);

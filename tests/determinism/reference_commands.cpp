@@ -267,6 +267,9 @@ Ending Reference::call(int simplex, const std::string& name, const Arguments& ar
 Ending Reference::startLong(int simplex, const Command& command, const Arguments& arguments,
                             const Caller& caller, double& sum) {
     LongCommand& running = at(simplex).longCommand;
+    const RefTask* task = at(simplex).task.get();
+    if (task != nullptr && task->safeByLoss && command.onInputLost == OnInputLost::Fail)
+        return {Outcome::Rejected, Reason::State, task->lostText};
     if (running.command != nullptr) {
         if (command.onBusy == OnBusy::Reject) {
             return {Outcome::Rejected, Reason::Busy, running.command->name + " is running"};

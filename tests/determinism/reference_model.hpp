@@ -159,6 +159,7 @@ struct RefTask {
     std::int64_t lastRun = 0, stateSince = 0, now = -1;
     State state = State::Standby;
     bool done = false, dead = false, faultPending = false, qualitySet = false, safeByLoss = false;
+    std::string lostText;     // why it is safe by loss
     bool toldInVain = false;  // in this stay
     Quality quality = Quality::Good;
     std::int64_t measuredAt = 0, faultCode = 0;

@@ -218,7 +218,7 @@ std::int64_t Reference::ageOf(const SlotState& source, const RefTask& reader) co
 SlotState Reference::readInputs(int simplex, std::int64_t passed) {
     RefTask& task = *at(simplex).task;
     SlotState sum{cycle_, now_, noSimplex, Quality::Good};
-    bool safe = false;
+    const Link* missed = nullptr;
     for (Link* link : task.inputs) {
         const RefSimplex& target = at(link->target);
         const bool ages = target.task != nullptr || !target.writers.empty();
@@ -252,7 +252,7 @@ SlotState Reference::readInputs(int simplex, std::int64_t passed) {
             }
             seen = held;
         }
-        safe = safe || (lost && link->rule->onLoss == OnLoss::Safe);
+        if (missed == nullptr && lost && link->rule->onLoss == OnLoss::Safe) missed = link;
         if (seen.quality > sum.quality) {
             sum.quality = seen.quality;
             sum.cause = seen.cause;
@@ -262,12 +262,18 @@ SlotState Reference::readInputs(int simplex, std::int64_t passed) {
             sum.cycle = seen.cycle;
         }
     }
-    safe = safe && !resting(task.state);
-    if (safe && !task.safeByLoss) {
-        latchSafe(simplex);
-        writeSafe(simplex);
+    const bool safe = missed != nullptr && !resting(task.state);
+    if (!safe || std::exchange(task.safeByLoss, true)) {
+        task.safeByLoss = safe;
+        return sum;
     }
-    task.safeByLoss = safe;
+    latchSafe(simplex);
+    writeSafe(simplex);
+    task.lostText = inEvent("its input " + missed->rule->name + " from " + at(missed->target).path +
+                            " is lost");
+    const Command* runs = at(simplex).longCommand.command;
+    if (runs != nullptr && runs->onInputLost == OnInputLost::Fail)
+        cancelLong(simplex, task.lostText, true, Outcome::Failed);
     return sum;
 }
 

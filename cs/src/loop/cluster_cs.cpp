@@ -322,7 +322,7 @@ void ClusterCS::startAll() {
     self.agent->setCanonicalOrder(order);
     const std::vector<SimplexCS*> simplexes = self.activeInOrder(order);
     self.populate(simplexes);
-    self.checkManagers();
+    if (options.extent == Extent::Whole) self.checkManagers();
     Schedule schedule =
         makeSchedule(graph, {threads, self.test.chunkSize, {}, self.test.forceThreads});
     self.agent->addInterface(self.program);
