@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A manager exchanges the controllers of a demand: no cycle without one of them, no conflict.
+#include "cortex/core/error.hpp"
 #include "cortex/cs/testing.hpp"
 
 #include "support/probe.hpp"

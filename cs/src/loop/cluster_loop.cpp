@@ -310,13 +310,13 @@ void ClusterLoop::checkOverflow() {
 }
 
 // After the last tick: everything to Standby level by level, then by force, until all demands are
-// safe, too; the last write is the last cycle's. A loop with so few periods in its time that not
-// all levels would have theirs runs faster then.
+// safe, too; the last write is the last cycle's. Where the time has fewer periods than all levels
+// need, the loop runs faster then; who gives it less than one period wants none of that.
 void ClusterLoop::shutDown() {
     const std::int64_t stopBudget = std::llround(options_.stopTimeout * 1e9);
-    const std::int64_t least = 2 * group_.levels() + 2;
+    const std::int64_t most = std::max<std::int64_t>(stopBudget / (2 * group_.levels() + 2), 1);
     const std::int64_t period =
-        std::min(trigger_.period(), std::max<std::int64_t>(stopBudget / least, 1));
+        stopBudget < trigger_.period() ? trigger_.period() : std::min(trigger_.period(), most);
     const std::int64_t budget = std::max<std::int64_t>(stopBudget / period, 2);
     Trigger trigger = last_;
     trigger.periods = 1;

@@ -32,15 +32,15 @@ class LaneBlock;
 
 struct AgentOptions {
     std::uint32_t imageReaders = 8;
-    std::uint32_t imageKeepers = 0;         // interfaces that keep images of their own
-    std::uint32_t loopThreads = 1;          // threads that post events: workers and the loop
-    std::uint32_t eventCapacity = 4096;     // per loop thread
-    std::uint32_t outsideCommands = 256;    // on their way at once, of all senders
-    bool controlRequired = false;           // commands from outside need a lease
-    std::int64_t period = 1'000'000;        // ns, nominal
-    std::int64_t epoch = 0;                 // of this start, UTC microseconds; 0: now
-    bool realTime = false;                  // false: stepped, so that only nominal time counts
-    bool devices = true;                    // false: their threads do not run
+    std::uint32_t imageKeepers = 0;       // interfaces that keep images of their own
+    std::uint32_t loopThreads = 1;        // threads that post events: workers and the loop
+    std::uint32_t eventCapacity = 4096;   // per loop thread
+    std::uint32_t outsideCommands = 256;  // on their way at once, of all senders
+    bool controlRequired = false;         // commands from outside need a lease
+    std::int64_t period = 1'000'000;      // ns, nominal
+    std::int64_t epoch = 0;               // of this start, UTC microseconds; 0: now
+    bool realTime = false;                // false: stepped, so that only nominal time counts
+    bool devices = true;                  // false: their threads do not run
     Extent extent = Extent::Whole;
     std::string files{};                    // folder of what simplexes read and write; "": none
     std::shared_ptr<EventMemory> memory{};  // of the past; null: one of the usual size
