@@ -46,6 +46,7 @@ constexpr std::uint32_t threads = 16;  // one for each chunk, so that none waits
 HandMadeLoop::HandMadeLoop(const Plan& plan)
     : tree_{withCluster(makeTree(plan, disturbance_))}, script_{plan} {
     AgentOptions options;
+    options.extent = Extent::Part;  // random systems read what nobody writes
     options.loopThreads = threads;
     options.period = period;
     agent_ = std::make_unique<AgentRuntime>("test", tree_, options);

@@ -35,7 +35,9 @@ void Reference::runTask(int simplex) {
             if (!resting(task.state) || !at(output->target).demand) continue;
             tellInVain(simplex, *output, "a handler", "; atRest=\"writer\" frees it");
         }
-        state = readInputs(simplex, tick.passed);
+        // Whole or not at all, also where a handler throws: g++ 12 lets the call write it in place.
+        const SlotState read = readInputs(simplex, tick.passed);
+        state = read;
         if (!task.faultPending) runHooks(simplex, tick);
     } catch (const std::exception& error) {
         fault(simplex, -1, error.what());
