@@ -45,7 +45,7 @@ LAYERS = {
 # The room of each header that other folders see (include/ and internal/).
 PUBLIC = {
     "core": {
-        "base": "cell clock control_commands data error event_count findings loop_pace machine nearest_names numbered_text path plugin_places printable quality "
+        "base": "cell clock control_commands data error event_count findings findings_json loop_pace machine nearest_names numbered_text path plugin_places printable quality "
                 "realtime "
                 "report service_threads spsc_ring standstill state system_findings text_faults tick value xml_text",
         "types": "agreement labelled_value type_model",

@@ -142,7 +142,7 @@ TEST_F(CortexControl, ProgressOfALongCommandIsShownOnStandardErrorWhileItRuns) {
     const Words move{"call", "/controller", "moveTo", "speedShare=0.01", "--take"};
     // Again, where the loop stood still for so long that an axis counted as lost.
     const auto isLost = [](const std::string& output) {
-        return contains(output, "Failed: an axis was lost on the way");
+        return contains(output, "Failed: its input");
     };
 
     const Outcome lines = lookUntil([&] { return live(move); },

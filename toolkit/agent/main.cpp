@@ -14,8 +14,9 @@
 #include "model_dump.hpp"
 #include "options.hpp"
 #include "patient_output.hpp"
-#include "plugin_folders.hpp"
+#include "read_system.hpp"
 #include "retained_file.hpp"
+#include "start_check.hpp"
 #include "start_up.hpp"
 #include "stored_values.hpp"
 #include "summary.hpp"
@@ -47,79 +48,20 @@ enum ExitCode {
     HooksBroke = 6
 };
 
-// Start values from files: the later outranks the earlier one, and --set both.
-void applyFiles(const CommandLine& line, SimplexTree& tree, RetainedFile& retained,
-                Claims& claims) {
-    if (!line.settingsFile.empty()) std::cout << applySettingsFile(line.settingsFile, tree);
-    if (line.dumpsModel) return;  // a broken file of retained values would be set aside
-    if (RetainedFile::hasItems(tree)) {
-        claims.takeFile(retainFile(line));
-        try {
-            std::cout << retained.restore(tree, !line.noDevices);
-        } catch (const Error& error) {
-            throw UsageError(error.what());
-        }
-    } else if (!line.retainFile.empty()) {
-        std::cerr << "--retain: no item of this system has retain=\"true\"" << std::endl;
+// Retained values outrank those of --settings.
+void restoreRetained(const CommandLine& line, SimplexTree& tree, RetainedFile& retained,
+                     Claims& claims) {
+    if (!RetainedFile::hasItems(tree)) {
+        if (!line.retainFile.empty())
+            std::cerr << "--retain: no item of this system has retain=\"true\"" << std::endl;
+        return;
     }
-    std::cout << std::flush;
-}
-
-// A file that is written: neither read by this agent, as a model or settings, nor written twice.
-void refuseToWrite(const CommandLine& line, const ModelFiles& model) {
-    namespace fs = std::filesystem;
-    std::vector<fs::path> read = model.files;
-    if (!line.settingsFile.empty()) read.push_back(line.settingsFile);
-    const auto refuse = [](const std::string& option, const fs::path& file, const char* why) {
-        throw UsageError(option + " " + file.string() + ": it is " + why + ": name another file");
-    };
-    std::set<fs::path> written;
-    for (const auto& [option, file] :
-         {std::pair{"--log", line.log}, std::pair{"--retain", line.retainFile},
-          std::pair{"--memory", line.memoryFile}}) {
-        if (file.empty()) continue;
-        const bool isRead = std::ranges::any_of(read, [&target = file](const fs::path& each) {
-            std::error_code ignored;
-            return fs::equivalent(target, each, ignored);
-        });
-        if (isRead) refuse(option, file, "read by this agent, and would be written over");
-        if (!written.insert(fs::absolute(file).lexically_normal()).second)
-            refuse(option, file, "that of another option as well");
-    }
-}
-
-SimplexTree readSystem(const CommandLine& line, ClassRegistry& registry, RetainedFile& retained,
-                       Claims& claims) {
-    Report report;
-    const std::array files{line.system};
-    ModelFiles model = readModelFiles(files, report);
-    if (!model.hasSystem && report.ok()) {
-        report.error("", "no-system", {line.system.string(), 1}, "the file has no <system>",
-                     "give a system file, or write one around it");
-    }
-    if (!report.ok()) throw ModelError(std::move(report));
-    refuseToWrite(line, model);
-    for (const auto& plugin : line.plugins) {
-        const cs::BoundedStep step{"loading the plug-in " + plugin.string()};
-        registry.loadPlugin(plugin, model.types);
-    }
-    SimplexTree tree{std::move(model.types)};
-    for (const std::string& problem : offerPlugins(tree.sharedTypes(), registry))
-        std::cerr << problem << std::endl;
-    const cs::BoundedStep step{"making the simplexes of " + line.system.string()};
-    tree.add(model.system, &registry, report);
-    if (!report.ok()) throw ModelError(std::move(report));
-    tree.createRelated(&registry);
-    applyFiles(line, tree, retained, claims);
+    claims.takeFile(retainFile(line));
     try {
-        std::set<std::string> given;
-        for (const std::string& setting : line.settings) applySetting(tree, setting, given);
-    } catch (const UsageError&) {
-        throw;
+        std::cout << retained.restore(tree, !line.noDevices) << std::flush;
     } catch (const Error& error) {
-        throw UsageError(std::string{"--set: "} + error.what());
+        throw UsageError(error.what());
     }
-    return tree;
 }
 
 using Clock = std::chrono::steady_clock;
@@ -299,30 +241,15 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
     return Second;
 }
 
-// A destructor of a plug-in may hang.
-void destroy(SimplexTree* tree) {
-    const cs::BoundedStep step{"the destructors of the simplexes"};
-    delete tree;
-}
-
-using OwnedTree = std::unique_ptr<SimplexTree, decltype(&destroy)>;
-
-int dumpModel(const CommandLine& line) {
-    const int output = setStandardOutputAside();
-    ClassRegistry registry;
-    addClasses(registry);
-    RetainedFile unused{retainFile(line)};
-    Claims none{line};
-    const OwnedTree tree{new SimplexTree{readSystem(line, registry, unused, none)}, &destroy};
-    writeModel(output, modelText(line, registry, *tree));
-    return Ended;
-}
-
 int run(int argc, char** argv) {
     int exitCode = Ended;
     const auto line = parseCommandLine(argc, argv, exitCode);
     if (!line) return exitCode;
-    if (line->dumpsModel) return dumpModel(*line);
+    if (line->dumpsModel) {
+        dumpModel(*line);
+        return Ended;
+    }
+    if (line->validates) return printStartFindings(*line) ? Ended : Refused;
     std::optional<PatientOutput> out, errors;
     if (!line->checkHooks) {  // which tells what hooks print with the library's own streams
         out.emplace(std::cout, STDOUT_FILENO);
@@ -334,7 +261,9 @@ int run(int argc, char** argv) {
     addClasses(registry);
     RetainedFile retained{retainFile(*line)};
     Claims claims{*line};
-    const OwnedTree tree{new SimplexTree{readSystem(*line, registry, retained, claims)}, &destroy};
+    const OwnedTree tree = readSystem(*line, registry, [&](SimplexTree& each) {
+        restoreRetained(*line, each, retained, claims);
+    });
     try {
         return runCluster(*line, registry, *tree, retained, hookCheck, claims);
     } catch (const comms::SecondStart& error) {

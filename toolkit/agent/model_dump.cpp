@@ -3,26 +3,20 @@
 
 #include "cortex/core/error.hpp"
 #include "cortex/core/nearest_names.hpp"
-#include "cortex/cs/cluster_cs.hpp"
+#include "cortex/core/simplex_tree.hpp"
+#include "cortex/toolkit/classes.hpp"
 
+#include "dry_start.hpp"
 #include "model_text.hpp"
+#include "read_system.hpp"
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <functional>
-#include <memory>
-#include <utility>
+#include <string>
 #include <vector>
-
-#include <unistd.h>
 
 namespace cortex::toolkit {
 namespace {
 
 constexpr const char* dumpOption = "--dump-mjcf";
-
-struct StartEnded {};
 
 const HasModelText* modelOf(const Simplex& simplex) {
     return dynamic_cast<const HasModelText*>(&simplex);
@@ -70,45 +64,18 @@ const HasModelText& chosen(const CommandLine& line, const SimplexTree& tree) {
     return *model;
 }
 
-[[noreturn]] void failed(const char* doing) {
-    throw Error(std::string{dumpOption} + ": " + doing + ": " + std::strerror(errno));
-}
-
 }  // namespace
 
-int setStandardOutputAside() {
-    std::fflush(stdout);
-    const int former = dup(STDOUT_FILENO);
-    if (former < 0 || dup2(STDERR_FILENO, STDOUT_FILENO) < 0) failed("the standard output");
-    return former;
-}
-
-std::string modelText(const CommandLine& line, const ClassRegistry& registry, SimplexTree& tree) {
-    const ClusterSettings settings = clusterSettings(tree.description(), line);
-    const HasModelText& model = chosen(line, tree);
+void dumpModel(const CommandLine& line) {
+    const OutputAside output;
+    ClassRegistry registry;
+    addClasses(registry);
+    const OwnedTree tree = readSystem(line, registry);
+    const HasModelText& model = chosen(line, *tree);
     std::string text;
-    cs::ClusterCS cluster{settings.name, settings.options};
-    cluster.addSimplexTree(tree);
-    cluster.useClasses(registry);
-    cluster.setTriggerSource<cs::ManualTrigger>(settings.period);
-    cluster.beforeFirstCycle([&] {
-        text = model.modelText();
-        throw StartEnded{};
-    });
-    try {
-        cluster.start();
-    } catch (const StartEnded&) {
-        if (!text.ends_with('\n')) text += '\n';
-    }
-    return text;
-}
-
-void writeModel(int descriptor, const std::string& text) {
-    const std::unique_ptr<FILE, int (*)(FILE*)> file{fdopen(descriptor, "w"), &std::fclose};
-    if (file == nullptr || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size() ||
-        std::fflush(file.get()) != 0) {
-        failed("the model could not be written");
-    }
+    dryStart(line, registry, *tree, [&](cs::ClusterCS&) { text = model.modelText(); });
+    if (!text.ends_with('\n')) text += '\n';
+    output.write(text);
 }
 
 }  // namespace cortex::toolkit

@@ -96,13 +96,18 @@ std::string aPath(const std::string& text) {
     return "'" + text + "' is no path of a simplex; write the system file before this option";
 }
 
-void addDump(CLI::App& app, CommandLine& line) {
+void addDryStarts(CLI::App& app, CommandLine& line) {
+    CLI::Option* validate =
+        app.add_flag("--validate", line.validates,
+                     "prints what a start would refuse or warn of as JSON, and ends: nothing runs; "
+                     "`cortex validate` does so in words");
     app.add_option(
            "--dump-mjcf", line.modelPath,
            "prints the model of a MujocoWorld as MJCF, and ends: nothing runs; PATH chooses "
            "one of several")
         ->type_name("[PATH]")
         ->expected(0, 1)
+        ->excludes(validate)
         ->check(aPath);
 }
 
@@ -239,7 +244,7 @@ std::optional<CommandLine> parseCommandLine(int argc, char** argv, int& exitCode
     app.add_flag(
         "--check-hooks", line.checkHooks,
         "names each allocation, lock, system call, page fault, throw and output of a hook");
-    addDump(app, line);
+    addDryStarts(app, line);
     app.add_option("--log", line.log, "writes events to a file instead of the standard error")
         ->type_name("FILE");
     addNetwork(app, line);

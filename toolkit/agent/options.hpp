@@ -38,7 +38,8 @@ struct CommandLine {
     bool startup = false, checkHooks = false;
     bool wait = false;        // for another start of the name to end
     bool noDevices = false;   // a trial run: no device is talked to, nothing is kept
-    bool dumpsModel = false;  // instead of running
+    bool validates = false;   // instead of running
+    bool dumpsModel = false;  // likewise
     std::string modelPath;    // of the simplex that has it; empty: the only one
     std::filesystem::path log;
     bool offline = false;

@@ -82,9 +82,9 @@ Outcome AxisPoseController::proceed(Call& call) {
         return Outcome::Cancelled;
     }
     const std::size_t stands = firstThatDoesNotFollow();
-    if (lost_ || inputLost() || stands < axisCount()) {
+    if (lost_ || stands < axisCount()) {
         aims_ = false;
-        if (inputLost() || stands == axisCount()) return call.fail("an axis was lost on the way");
+        if (stands == axisCount()) return call.fail("an axis was lost on the way");
         return call.fail(doesNotFollow(stands).view());
     }
     progress_ = moves() ? time_ / plan_.duration() : 1.0;

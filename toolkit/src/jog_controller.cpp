@@ -174,7 +174,6 @@ Outcome JogController::runTo(Call& call, std::size_t axis) {
         brake(axis, now_);
         return Outcome::Cancelled;
     }
-    if (inputLost()) return call.fail("an axis was lost on the way");
     if (!follows(axis)) return call.fail(doesNotFollow(axis).view());
     if (interrupted_ == Interrupted::ByHalt) return call.fail("the motion was halted");
     if (interrupted_ == Interrupted::ByOthers)

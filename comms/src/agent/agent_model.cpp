@@ -9,8 +9,11 @@
 #include "wire/ids.hpp"
 #include "wire/named_values.hpp"
 #include "wire/presence_extras.hpp"
+#include "wire/relationship_ages.hpp"
 #include "wire/type_messages.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 #include <string>
@@ -34,8 +37,8 @@ SimplexMessage simplexMessage(const Structure& structure, std::uint32_t index, c
     for (std::uint32_t i = 0; i < info.edgeCount; ++i) {
         const Edge& edge = structure.edges[info.firstEdge + i];
         const SimplexInfo& target = structure.simplexes[edge.target];
-        message.relationships.push_back(
-            {edge.rule->name, target.path, edge.delayed, target.remote});
+        message.relationships.push_back({edge.rule->name, target.path, edge.delayed, target.remote,
+                                         edge.maxAge == edge.rule->maxAge ? 0 : edge.maxAge});
     }
     for (const ItemLayout& item : info.layout->items) {
         if (!item.constant) continue;
@@ -68,6 +71,7 @@ void AgentModel::pack(std::vector<Message>&& messages, std::vector<Message> Mode
         alone.agent = self_.name;
         alone.epoch = self_.epoch;
         (alone.*list).push_back(std::move(each));
+        writeAges(alone);
         const std::size_t more = encodedSize(alone);
         if (size + more > fullSample) {
             alone.id = modelId(alone);
@@ -75,6 +79,7 @@ void AgentModel::pack(std::vector<Message>&& messages, std::vector<Message> Mode
             size = more;
         } else {
             (samples_.back().*list).push_back(std::move((alone.*list).front()));
+            std::ranges::move(alone.extras, std::back_inserter(samples_.back().extras));
             size += more;
         }
     }

@@ -6,6 +6,7 @@
 #include "peers/peer_structure.hpp"
 #include "wire/ids.hpp"
 #include "wire/presence_extras.hpp"
+#include "wire/relationship_ages.hpp"
 #include "wire/type_messages.hpp"
 
 #include <algorithm>
@@ -69,9 +70,11 @@ bool PeerModel::add(const Model& model) {
         if (shown.size() > longestList) return refuse();
         authority_ = std::move(shown);
     }
+    std::vector<SimplexMessage> simplexes = model.simplexes;
+    if (!readAges(simplexes, model.extras)) return refuse();
     bool all = true;
     for (const TypeMessage& each : model.types) all = add(each) && all;
-    for (const SimplexMessage& each : model.simplexes) all = add(each) && all;
+    for (const SimplexMessage& each : simplexes) all = add(each) && all;
     return all;
 }
 

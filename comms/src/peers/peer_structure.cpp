@@ -78,13 +78,14 @@ private:
         if (rule == nullptr) return wrong("its type has no such rule");
         if (!relationship.remote) {
             if (target == nullptr) return wrong("there is no such simplex");
-            return tree_.relate(simplex, relationship.rule, *target, relationship.delayed);
+            return tree_.relate(simplex, relationship.rule, *target, relationship.delayed,
+                                relationship.maxAge);
         }
         if (target != nullptr) return wrong("it is no simplex of another agent");
         if (rule->direction != Direction::Input) return wrong("other agents' can only be inputs");
         if (!SimplexTree::pathError(relationship.target).empty()) return wrong("it is no path");
         tree_.relateRemote(simplex, relationship.rule, relationship.target, {},
-                           relationship.delayed);
+                           relationship.delayed, relationship.maxAge);
     }
 
     void setConstant(Simplex& simplex, const NamedValue& named) {

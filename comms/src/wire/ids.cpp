@@ -27,6 +27,7 @@ void append(std::string& text, const Relationship& relationship) {
     text.append("relate ").append(relationship.rule).append(" ").append(relationship.target);
     if (relationship.delayed) text += " delayed";
     if (relationship.remote) text += " remote";
+    if (relationship.maxAge != 0) text.append(" maxAge ").append(toText(relationship.maxAge));
     text += '\n';
 }
 

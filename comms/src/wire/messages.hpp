@@ -127,6 +127,7 @@ struct TypeMessage {
 struct Relationship {
     std::string rule, target;
     bool delayed = false, remote = false;
+    double maxAge = 0;  // s, of its own; 0: the rule's. Written as an extra of its sample
 
     static void visit(auto& self, auto&& f) {
         f(self.rule, self.target, self.delayed, self.remote);

@@ -37,6 +37,9 @@ inline constexpr const char* summaries = "summary";
 // Of an agent: "1": it keeps what tools ask for of the past. Of a tool, once for each ask:
 // "NUMBER FROM UNTIL AFTER AGENT".
 inline constexpr const char* ofThePast = "past";
+// Of a sample of a model, for each relationship in it that has a greater age than its rule:
+// "PATH RULE TARGET SECONDS".
+inline constexpr const char* ageOfRelationship = "maxAge";
 // Of the first sample of a model: the signed list of its agent.
 inline constexpr const char* signedList = "authority";
 inline constexpr const char* validUntil = "until";  // of a command, by the clock of its target

@@ -180,7 +180,7 @@ void* RelatedSimplex::cell(std::string_view item, const ItemAccess& access,
     Tables& tables = owner_->runtime().tables();
     const std::uint32_t target = tables.structure().edges[edge_].target;
     const SimplexInfo& info = tables.structure().simplexes[target];
-    const ItemLayout& layout = itemAt(*info.layout, info.path, item);
+    const ItemLayout& layout = itemAt(info, item);
     const std::string where = owner_->path() + ": " + info.path + "." + layout.item->name;
     if (owner_->runtime().started()) {
         throw Error(where + ": its handle is got in populate(), not later: keep it in a member");
@@ -206,7 +206,7 @@ void* RelatedSimplex::cell(std::string_view item, const ItemAccess& access,
 const Value& RelatedSimplex::safe(std::string_view item, const ItemAccess& access) const {
     const Structure& structure = owner_->runtime().structure();
     const SimplexInfo& info = structure.simplexes[structure.edges[edge_].target];
-    const DataItem& found = *itemAt(*info.layout, info.path, item).item;
+    const DataItem& found = *itemAt(info, item).item;
     const std::string where = owner_->path() + ": " + info.path + "." + found.name;
     checkShape(found, access, where);
     if (found.safe.kind == Safe::Kind::Given) return found.safe.value;
@@ -235,7 +235,7 @@ AgentRuntime& Simplex::startedRuntime() const {
 void* Simplex::cell(std::string_view item, const ItemAccess& access, std::size_t& length) {
     const Tables& tables = startedRuntime().tables();
     const SimplexInfo& info = tables.structure().simplexes[index_];
-    const ItemLayout& layout = itemAt(*info.layout, path(), item);
+    const ItemLayout& layout = itemAt(info, item);
     const std::string where = path() + "." + layout.item->name;
     checkShape(*layout.item, access, where);
     if (access.write && !info.writers.empty()) {
@@ -257,7 +257,7 @@ void* Simplex::cell(std::string_view item, const ItemAccess& access, std::size_t
 
 bool Simplex::hasValue(std::string_view item) const {
     const Structure& structure = startedRuntime().structure();
-    const DataItem& known = *itemAt(*structure.simplexes[index_].layout, path(), item).item;
+    const DataItem& known = *itemAt(structure.simplexes[index_], item).item;
     return std::ranges::find(settings(), known.name, &Setting::item) != settings().end();
 }
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <arpa/inet.h>
 
@@ -19,6 +20,13 @@ using Relate = SystemDescription::Relate;
 using Setting = SystemDescription::Setting;
 using Entry = SystemDescription::SimplexEntry;
 using Cluster = SystemDescription::ClusterEntry;
+
+std::string readSeconds(double& target, std::string_view text) {
+    const auto seconds = toFloat(text);
+    if (!seconds || !std::isfinite(*seconds) || *seconds <= 0) return "a number of seconds above 0";
+    target = *seconds;
+    return {};
+}
 
 constexpr std::array relateAttributes{
     AttributeReader<Relate>{
@@ -35,6 +43,9 @@ constexpr std::array relateAttributes{
         [](Relate& relate, std::string_view text) { return readBool(relate.remote, text); }},
     AttributeReader<Relate>{
         "type", [](Relate& relate, std::string_view text) { return readText(relate.type, text); }},
+    AttributeReader<Relate>{
+        "maxAge",
+        [](Relate& relate, std::string_view text) { return readSeconds(relate.maxAge, text); }},
 };
 
 constexpr std::array settingAttributes{

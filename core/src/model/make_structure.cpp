@@ -87,7 +87,8 @@ void addEdges(Structure& structure, const SimplexTree& tree) {
         for (const auto& resolved : resolveRelations(tree, *simplex)) {
             const std::uint32_t target = structure.find(resolved.relation->target);
             if (target == noSimplex) continue;
-            structure.edges.push_back({owner, target, resolved.rule, resolved.delayed()});
+            structure.edges.push_back(
+                {owner, target, resolved.rule, resolved.delayed(), resolved.maxAge()});
         }
         info.edgeCount = static_cast<std::uint32_t>(structure.edges.size()) - info.firstEdge;
         ++owner;

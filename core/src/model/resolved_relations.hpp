@@ -16,6 +16,7 @@ struct ResolvedRelation {
     const Simplex* target = nullptr;
 
     bool delayed() const { return relation->delayed || rule->delayed; }
+    double maxAge() const { return relation->maxAge == 0 ? rule->maxAge : relation->maxAge; }
     const Type* wantedType(const TypeModel& types) const {  // of a remote target
         const Type* stated = types.find(relation->type);
         const bool fits = stated != nullptr && stated->isA(rule->target);

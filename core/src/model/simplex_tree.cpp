@@ -95,22 +95,24 @@ Simplex& SimplexTree::add(std::string_view path, std::string_view type) {
 }
 
 void SimplexTree::relate(Simplex& owner, std::string_view rule, const Simplex& target,
-                         bool delayed) {
+                         bool delayed, double maxAge) {
     requireNotFixed(owner.path());
     Simplex::Relation& relation = owner.description_->relations.emplace_back();
     relation.rule = rule;
     relation.target = target.path();
     relation.delayed = delayed;
+    relation.maxAge = maxAge;
 }
 
 void SimplexTree::relateRemote(Simplex& owner, std::string_view rule, std::string_view path,
-                               std::string_view type, bool delayed) {
+                               std::string_view type, bool delayed, double maxAge) {
     requireNotFixed(owner.path());
     Simplex::Relation& relation = owner.description_->relations.emplace_back();
     relation.rule = rule;
     relation.target = path;
     relation.delayed = delayed;
     relation.remote = true;
+    relation.maxAge = maxAge;
     relation.type = type;
 }
 

@@ -103,6 +103,7 @@ Report validate(const SimplexTree& tree, Extent extent) {
         checkUnits(checked, *simplex);
         checkSettings(checked, *simplex);
         checkAboveOther(checked, *simplex);
+        checkAges(checked, *simplex);
     }
     checkCrossedPairs(tree, std::array{&tree}, report);
     checkFlow(checked);

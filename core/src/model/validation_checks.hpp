@@ -32,6 +32,8 @@ void checkRelations(const Checked& checked, const Simplex& simplex);
 std::string meantRule(const Checked& checked, const Simplex& owner,
                       const Simplex::Relation& relation);
 void checkCounts(const Checked& checked, const Simplex& simplex);
+// How old what its inputs read may be.
+void checkAges(const Checked& checked, const Simplex& simplex);
 // Items that belong together but have different units.
 void checkUnits(const Checked& checked, const Simplex& owner);
 // Ranges of rotary axes that look like degrees.

@@ -16,14 +16,6 @@ namespace {
 
 constexpr std::size_t mostPrinted = 10'000;
 
-// Hz as the system file says; 0 if it does not, or if the agent is one of several clusters.
-double frequencyOf(const SystemDescription& system) {
-    if (system.clusters.size() != 1) return 0;
-    const auto& attributes = system.clusters.front().attributes;
-    const auto found = attributes.find("frequency");
-    return found != attributes.end() ? toFloat(found->second).value_or(0) : 0;
-}
-
 // The edges of a structure with the relations that they come from, and the simplexes by index.
 class Flow {
 public:
@@ -41,7 +33,6 @@ public:
     void checkRemoteTypes();
     void checkDemands();
     void checkLoops();
-    void checkAges();
     void checkLoss();
     void checkUnwritten();
 
@@ -66,7 +57,6 @@ private:
     void checkMixed(const std::vector<std::uint32_t>& outputs);
     void checkSafe(const SimplexInfo& demand, const Simplex& simplex);
     void checkObserved(std::uint32_t index);
-    int writtenEvery(std::uint32_t index) const;
     std::span<const Edge> edgesUnder(std::uint32_t simplex, std::string_view rule) const;
     std::string observationError(const Edge& output, std::string_view rule,
                                  const DataItem& item) const;
@@ -292,41 +282,6 @@ void Flow::reportLoop(const Loop& loop) {
 }
 
 // Cycles between two writings of what the edge reads, 0 if this agent does not write it.
-int Flow::writtenEvery(std::uint32_t index) const {
-    const std::uint32_t source = edge(index).target;
-    const bool active = info(source).role == Role::Active;
-    const bool written = !info(source).remote && (active || !info(source).writers.empty());
-    return written ? static_cast<int>(checked_.structure.writtenEvery(source)) : 0;
-}
-
-// Inputs whose maxAge the running agent raises; one finding a rule, for what is written least
-// often.
-void Flow::checkAges() {
-    const double frequency = frequencyOf(checked_.tree.description());
-    if (frequency == 0) return;
-    for (std::uint32_t index = 0; index < relations_.size();) {
-        const Edge& first = edge(index);
-        const Rule& rule = *first.rule;
-        std::uint32_t slowest = index;
-        for (++index; index < relations_.size(); ++index) {
-            if (edge(index).owner != first.owner || edge(index).rule != first.rule) break;
-            if (writtenEvery(index) > writtenEvery(slowest)) slowest = index;
-        }
-        const int every = writtenEvery(slowest);
-        const double least = 3.0 * every / frequency;
-        const bool stated = rule.maxAge != Rule{}.maxAge;
-        if (rule.direction == Direction::Output || !stated || rule.maxAge >= least) continue;
-        checked_.report.warning(
-            owner(first).path(), finding::maxAge, relations_[slowest]->place,
-            ruleText(owner(first), rule) + " has maxAge=\"" + toText(rule.maxAge) +
-                "\", which is raised to " + toText(least) + ": three periods of " +
-                info(edge(slowest).target).path + ", written " +
-                (every == 1 ? "each cycle" : "every " + std::to_string(every) + " cycles") +
-                " at " + toText(frequency) + " Hz",
-            "write maxAge=\"" + toText(least) + "\" or more, or leave it out");
-    }
-}
-
 // Who reacts to a loss with safe values must have some. What lacks outputs has a finding already.
 void Flow::checkLoss() {
     std::vector<bool> demands(simplexes_.size(), false);
@@ -403,7 +358,6 @@ void checkFlow(const Checked& checked) {
     flow.checkRemoteTypes();
     flow.checkDemands();
     flow.checkLoops();
-    flow.checkAges();
     flow.checkLoss();
 }
 

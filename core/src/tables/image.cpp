@@ -73,7 +73,7 @@ const void* Image::cells(std::uint32_t simplex, const ItemLayout& item) const {
 
 const void* Image::element(std::string_view path, std::string_view item, Kind kind) const {
     const std::uint32_t simplex = simplexAt(structure(), path);
-    const ItemLayout& layout = itemAt(*structure().simplexes[simplex].layout, path, item);
+    const ItemLayout& layout = itemAt(structure().simplexes[simplex], item);
     if (layout.item->kind != kind || layout.item->length != 1) {
         throw Error(std::string{path} + ": item '" + layout.item->name + "' is " +
                     shapeOf(*layout.item) + ", not one " + name(kind));
@@ -87,7 +87,7 @@ Value Image::value(std::uint32_t simplex, const ItemLayout& item) const {
 
 Value Image::value(std::string_view path, std::string_view item) const {
     const std::uint32_t simplex = simplexAt(structure(), path);
-    return value(simplex, itemAt(*structure().simplexes[simplex].layout, path, item));
+    return value(simplex, itemAt(structure().simplexes[simplex], item));
 }
 
 std::uint32_t imagesToKeep(std::size_t octets) {

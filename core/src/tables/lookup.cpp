@@ -29,15 +29,15 @@ void throwUnknown(const std::string& message, std::string_view wrong,
     throw Error(message + "; " + (nearest.empty() ? listed(valid) : nearest));
 }
 
-const ItemLayout& itemAt(const TypeLayout& layout, std::string_view path, std::string_view item) {
-    const ItemLayout* found = layout.find(item);
+const ItemLayout& itemAt(const SimplexInfo& simplex, std::string_view item) {
+    const ItemLayout* found = simplex.layout->find(item);
     if (found != nullptr) return *found;
     std::vector<std::string> names;
-    for (const ItemLayout& each : layout.items) names.push_back(each.item->name);
-    const std::string message = std::string{path} + ": type " + layout.type->name +
+    for (const ItemLayout& each : simplex.layout->items) names.push_back(each.item->name);
+    const std::string message = simplex.path + ": type " + simplex.layout->type->name +
                                 " has no item '" + std::string{item} + "'";
     // Nothing is known of what another agent has, unless the system file says its type.
-    if (names.empty())
+    if (names.empty() && simplex.remote)
         throw Error(message +
                     "; where another agent has it, give its <relate> the type that it "
                     "has there: type=\"…\"");

@@ -13,8 +13,8 @@ namespace cortex {
 [[noreturn]] void throwUnknown(const std::string& message, std::string_view wrong,
                                std::span<const std::string> valid);
 
-// Throws Error naming the nearest items if the simplex at `path` has no such item.
-const ItemLayout& itemAt(const TypeLayout& layout, std::string_view path, std::string_view item);
+// Throws Error naming the nearest items if the simplex has no such item.
+const ItemLayout& itemAt(const SimplexInfo& simplex, std::string_view item);
 // Throws Error naming the nearest paths.
 std::uint32_t simplexAt(const Structure& structure, std::string_view path);
 

@@ -3,6 +3,7 @@
 
 #include "cortex/core/agent.hpp"
 #include "cortex/core/error.hpp"
+#include "cortex/core/sending_checks.hpp"
 #include "cortex/core/system_findings.hpp"
 #include "cortex/core/validation.hpp"
 #include "cortex/cs/testing.hpp"
@@ -11,6 +12,7 @@
 #include "loop/given_values.hpp"
 #include "loop/simplex_classes.hpp"
 #include "loop/start_order.hpp"
+#include "loop/two_managers.hpp"
 #include "tasks/crash_report.hpp"
 #include "tasks/io_threads.hpp"
 #include "tasks/unbound_handle.hpp"
@@ -45,8 +47,9 @@ struct ClusterCS::Implementation {
     StartOrder startOrder(const TaskGraph& graph, std::span<const std::uint32_t> order) const;
     void populate(std::span<SimplexCS* const> simplexes) const;
     void joinSettings(SimplexCS& simplex, Report& report) const;
-    void checkManagers() const;
-    void warnOfModel() const;
+    std::vector<std::uint32_t> managersOf(std::span<SimplexCS* const> simplexes) const;
+    Report checkNetwork() const;
+    void warnOf(const Report& report) const;
     void endIoThreads();
     [[noreturn]] void endProcess(const std::string& why) const;
 };
@@ -208,39 +211,20 @@ void ClusterCS::Implementation::populate(std::span<SimplexCS* const> simplexes) 
     if (!report.ok()) refuse(std::move(report));
 }
 
-// A demand with several writers is handed over by one manager, or by none: two know nothing of each
-// other.
-void ClusterCS::Implementation::checkManagers() const {
-    Report report;
-    const auto& simplexes = agent->structure().simplexes;
-    for (const SimplexInfo& demand : simplexes) {
-        const auto managerOf = [&](std::uint32_t writer) {
-            return static_cast<const SimplexCS&>(agent->simplex(writer)).manager_;
-        };
-        if (demand.remote || demand.writers.size() < 2) continue;
-        const std::uint32_t first = demand.writers.front();
-        for (const std::uint32_t each : demand.writers) {
-            if (managerOf(each) == managerOf(first)) continue;
-            const auto text = [&](std::uint32_t writer) {
-                const std::uint32_t manager = managerOf(writer);
-                return simplexes[writer].path + ", which " +
-                       (manager == noSimplex ? "nobody" : simplexes[manager].path) + " manages";
-            };
-            const std::uint32_t manager =
-                managerOf(first) != noSimplex ? managerOf(first) : managerOf(each);
-            report.error(demand.path, finding::twoManagers, agent->simplex(manager).place(),
-                         "it is written by " + text(first) + ", and by " + text(each) +
-                             ": both could have it at once",
-                         "let " + simplexes[manager].path +
-                             " choose between all of them, or give each a demand of its own");
-            break;
-        }
-    }
-    if (!report.ok()) refuse(std::move(report));
+std::vector<std::uint32_t> ClusterCS::Implementation::managersOf(
+    std::span<SimplexCS* const> simplexes) const {
+    std::vector<std::uint32_t> managers(agent->structure().simplexes.size(), noSimplex);
+    for (const SimplexCS* each : simplexes) managers[each->index()] = each->manager_;
+    return managers;
 }
 
-void ClusterCS::Implementation::warnOfModel() const {
-    for (const Finding& finding : agent->warnings().findings) {
+// Sizes count where others are to read them.
+Report ClusterCS::Implementation::checkNetwork() const {
+    return interfaces.empty() ? Report{} : checkSending(*tree, agent->structure());
+}
+
+void ClusterCS::Implementation::warnOf(const Report& report) const {
+    for (const Finding& finding : report.findings) {
         EventText text{finding.message};
         const std::string place = finding.place.text();
         if (!place.empty()) text << " [" << place << "]";
@@ -317,12 +301,17 @@ void ClusterCS::startAll() {
     self.agent = std::make_unique<AgentRuntime>(self.name, *self.tree, options);
     if (Report report = missingClasses(*self.agent, self.registry); !report.ok())
         refuse(std::move(report));
+    const Report sending = self.checkNetwork();
+    if (!sending.ok()) refuse(sending);
     const TaskGraph graph = self.graph();
     const std::vector<std::uint32_t> order = canonicalOrder(graph);
     self.agent->setCanonicalOrder(order);
     const std::vector<SimplexCS*> simplexes = self.activeInOrder(order);
     self.populate(simplexes);
-    if (options.extent == Extent::Whole) self.checkManagers();
+    if (options.extent == Extent::Whole) {
+        if (Report report = twoManagers(*self.agent, self.managersOf(simplexes)); !report.ok())
+            refuse(std::move(report));
+    }
     Schedule schedule =
         makeSchedule(graph, {threads, self.test.chunkSize, {}, self.test.forceThreads});
     self.agent->addInterface(self.program);
@@ -348,7 +337,8 @@ void ClusterCS::startAll() {
     }
     self.loop->start();
     if (self.options.devices) self.ioThreads.begin(simplexes);
-    self.warnOfModel();
+    self.warnOf(self.agent->warnings());
+    self.warnOf(sending);
     tellInheritedClasses(*self.agent, self.registry);
 }
 

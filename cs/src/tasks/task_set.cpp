@@ -175,7 +175,7 @@ struct TaskBuilder {
         input.rule = edge.rule;
         input.target = edge.target;
         input.ages = target.remote || target.role == Role::Active || !target.writers.empty();
-        input.maxAge = std::max(toNanoseconds(edge.rule->maxAge),
+        input.maxAge = std::max(toNanoseconds(edge.maxAge),
                                 3 * set.period * structure.writtenEvery(edge.target));
         input.fromOutside = target.remote || measures(edge.target) ||
                             std::ranges::any_of(target.writers, [this](std::uint32_t writer) {

@@ -59,20 +59,6 @@ void print(const Json& json) {
     std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
 }
 
-Json findingsJson(const Report& report) {
-    Json list = Json::array();
-    for (const Finding& finding : report.findings) {
-        list.push_back({{"severity", name(finding.severity)},
-                        {"path", finding.path},
-                        {"rule", finding.rule},
-                        {"file", finding.place.file},
-                        {"line", finding.place.line},
-                        {"message", finding.message},
-                        {"remedy", finding.remedy}});
-    }
-    return list;
-}
-
 void printFindings(const Report& report, Stream stream) {
     std::ostream& out = stream == Stream::Output ? std::cout : std::cerr;
     const bool colour = coloured(stream);

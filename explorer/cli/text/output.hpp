@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cortex/core/report.hpp"
+#include "cortex/core/findings_json.hpp"
 
 #include "text/plain_text.hpp"
 
@@ -61,7 +61,7 @@ private:
 
 void print(const Json& json);  // to standard output
 
-Json findingsJson(const Report& report);
+inline Json findingsJson(const Report& report) { return cortex::findingsJson<Json>(report); }
 void printFindings(const Report& report, Stream stream);  // one a line; coloured on a terminal
 
 }  // namespace cortex::cli

@@ -35,15 +35,27 @@ void addValidate(Verbs& verbs) {
     CLI::App* verb = verbs.add(
         "validate", "Check model files as an agent does at its start",
         R"(Every finding is printed: what is wrong where, and what to write instead. Exit code 0: valid,
-1: not, 3: a file was not found.
+1: not, 3: a file was not found. A system is made ready to start by cortex-agent, which runs nothing
+and talks to no device; so plug-ins that have its classes are loaded, from the folders of cortex-agent
+and by --plugin.
 Examples:
-  cortex validate lbr_teleop.xml           a system, with the types and rules that it names
-  cortex validate cortex-morphology.xml    types and rules alone)",
+  cortex validate lbr_teleop.xml                a system, with the types and rules that it names
+  cortex validate plant.xml --plugin pump.so    one with a class that this plug-in has
+  cortex validate own.xml --model-only          one that a program with classes of its own runs
+  cortex validate cortex-morphology.xml         types and rules alone)",
         options, validateFiles);
     verb->add_option("FILE", options->files,
                      "System, ontology or morphology files; together they are one model")
         ->required()
         ->type_name("");
+    CLI::Option* plugin =
+        verb->add_option("--plugin", options->plugins,
+                         "Shared object with classes of active types; once for each")
+            ->type_name("FILE")
+            ->allow_extra_args(false);
+    verb->add_flag("--model-only", options->modelOnly,
+                   "Check the files alone, and not what classes of active types say of them")
+        ->excludes(plugin);
 }
 
 void addDiff(Verbs& verbs) {

@@ -102,13 +102,16 @@ Json dataJson(const Shown& shown) {
     return data;
 }
 
+bool isInput(const Edge& edge) { return edge.rule->direction == Direction::Input; }
+
 Json relationshipsJson(const FoundSimplex& simplex) {
     Json list = Json::array();
     for (std::uint32_t i = 0; i < simplex.info().edgeCount; ++i) {
         const Edge& edge = simplex.structure->edges[simplex.info().firstEdge + i];
         list.push_back({{"rule", edge.rule->name},
                         {"direction", name(edge.rule->direction)},
-                        {"to", simplex.structure->simplexes[edge.target].path}});
+                        {"to", simplex.structure->simplexes[edge.target].path},
+                        {"max_age_s", isInput(edge) ? Json(edge.maxAge) : Json()}});
     }
     return list;
 }
@@ -210,8 +213,10 @@ void printRelationships(const FoundSimplex& simplex) {
     Columns columns{2};
     for (std::uint32_t i = 0; i < simplex.info().edgeCount; ++i) {
         const Edge& edge = simplex.structure->edges[simplex.info().firstEdge + i];
-        columns.add({edge.rule->name, edge.rule->direction == Direction::Input ? "<-" : "->",
-                     simplex.structure->simplexes[edge.target].path});
+        const bool hasOwnAge = isInput(edge) && edge.maxAge != edge.rule->maxAge;
+        columns.add({edge.rule->name, isInput(edge) ? "<-" : "->",
+                     simplex.structure->simplexes[edge.target].path,
+                     hasOwnAge ? "max age " + toText(edge.maxAge) + " s" : ""});
     }
     std::cout << "\nrelationships\n";
     columns.print(std::cout);

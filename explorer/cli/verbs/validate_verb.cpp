@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "models/remote_paths.hpp"
 #include "models/shared_paths.hpp"
+#include "models/start_check.hpp"
 #include "verbs/verbs.hpp"
 
 #include <algorithm>
@@ -14,6 +15,7 @@ namespace {
 struct Checked {
     Paths files;  // as named
     Model model;
+    bool isStartChecked = false;
 };
 
 // Files make one model together; of several systems each is a model with all other files, and what
@@ -43,6 +45,17 @@ std::vector<Checked> check(const Paths& files) {
     return checked;
 }
 
+// A model without errors, which may still have what the classes of its active types refuse.
+void checkStarts(std::vector<Checked>& checked, const ValidateOptions& options) {
+    if (options.modelOnly) return;
+    for (Checked& each : checked) {
+        const bool isSystem =
+            each.model.hasSystem && !each.model.tree->description().clusters.empty();
+        if (!isSystem || !each.model.report.ok()) continue;
+        each.isStartChecked = checkStart(each.model, each.files, options.plugins);
+    }
+}
+
 Report join(const std::vector<Checked>& checked) {
     std::vector<const Model*> models;
     for (const Checked& each : checked) models.push_back(&each.model);
@@ -69,7 +82,7 @@ void printValid(const Checked& checked) {
     for (const auto& [name, type] : model.types().declarations()) rules += type.rules.size();
     std::cout << printable(checked.files.size() == 1 ? checked.files.front().string()
                                                      : plural(checked.files.size(), "file"))
-              << ": valid, "
+              << (model.hasSystem && !checked.isStartChecked ? ": valid as a model, " : ": valid, ")
               << (model.hasSystem
                       ? plural(simplexes.size(), "simplex") + ", " + std::to_string(active) +
                             " active"
@@ -88,7 +101,8 @@ void printSummary(const Report& report) {
 }  // namespace
 
 Exit validateFiles(const ValidateOptions& options) {
-    const auto checked = check(options.files);
+    auto checked = check(options.files);
+    checkStarts(checked, options);
     const Report report = join(checked);
     if (options.json) {
         print({{"findings", findingsJson(report)}});

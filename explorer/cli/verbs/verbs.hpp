@@ -16,6 +16,8 @@ namespace cortex::cli {
 
 struct ValidateOptions {
     Paths files;
+    Paths plugins;           // with classes of active types
+    bool modelOnly = false;  // for programs with classes of their own
     bool json = false;
 };
 Exit validateFiles(const ValidateOptions& options);

@@ -25,7 +25,7 @@ QString details(const Edge& edge, const SimplexInfo& target) {
     if (edge.delayed) parts << RelationTable::tr("delayed");
     if (target.remote) {
         parts << RelationTable::tr("of another agent, at most %1 s old, then %2")
-                     .arg(rule.maxAge)
+                     .arg(edge.maxAge)
                      .arg(QLatin1String{name(rule.onLoss)});
     }
     return parts.join(QStringLiteral(", "));

@@ -20,6 +20,7 @@ struct SystemDescription {
         bool remote = false;  // `to` may belong to another agent, bound when it appears
         Place place;
         std::string type{};  // that it has there; the rule's target if empty
+        double maxAge = 0;   // s; 0: the rule's
     };
     struct Setting {
         std::string data, value;

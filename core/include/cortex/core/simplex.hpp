@@ -197,6 +197,7 @@ public:
         bool remote = false;
         Place place;
         std::string type{};  // of a remote target; the rule's if empty
+        double maxAge = 0;   // s, of an input; 0: the rule's
     };
 
     explicit Simplex(Identity identity);

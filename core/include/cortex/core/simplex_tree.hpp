@@ -43,11 +43,13 @@ public:
         insert(std::move(simplex));
         return reference;
     }
-    void relate(Simplex& owner, std::string_view rule, const Simplex& target, bool delayed = false);
+    // `maxAge`: s after which this input is lost; 0: as its rule says.
+    void relate(Simplex& owner, std::string_view rule, const Simplex& target, bool delayed = false,
+                double maxAge = 0);
     // To a simplex of another agent, bound when that agent appears; inputs only. `type`: that it
     // has there, or a parent of it, where the items of the rule's target are too few.
     void relateRemote(Simplex& owner, std::string_view rule, std::string_view path,
-                      std::string_view type = {}, bool delayed = false);
+                      std::string_view type = {}, bool delayed = false, double maxAge = 0);
 
     // Fills rules with `create` up to their minimum; idempotent. start() calls it. A simplex that
     // stands at a created path already, of the type or a child, is related in its place.

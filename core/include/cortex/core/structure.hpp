@@ -57,6 +57,7 @@ struct Edge {
     std::uint32_t target = noSimplex;
     const Rule* rule = nullptr;
     bool delayed = false;
+    double maxAge = Rule{}.maxAge;  // s, above which an input is lost: its own, or the rule's
 };
 
 // One simplex of an agent, as others see it.
