@@ -4,11 +4,15 @@
 #include "cortex/core/type_description.hpp"
 
 #include "comms/told_agent.hpp"
+#include "wire/cdr.hpp"
 #include "wire/ids.hpp"
 #include "wire/named_values.hpp"
 #include "wire/type_messages.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -71,6 +75,49 @@ TEST(PeerModel, MakesTheStructureThatItsOwnerHas) {
         EXPECT_EQ(structure->edges[i].delayed, agent.structure().edges[i].delayed);
     }
     EXPECT_EQ(peer.refused(), 0U);
+}
+
+std::vector<double> agesIn(const Structure& structure) {
+    std::vector<double> ages;
+    for (const Edge& each : structure.edges) ages.push_back(each.maxAge);
+    return ages;
+}
+
+TEST(PeerModel, HasTheAgesThatRelationshipsOfTheOwnerAllow) {
+    ToldAgent agent;
+    for (Model& each : agent.models) {
+        std::vector<std::uint8_t> sent(encodedSize(each));
+        ASSERT_EQ(encode(each, sent), sent.size());
+        each = {};
+        ASSERT_TRUE(decode(std::span<const std::uint8_t>{sent}, each));
+    }
+    PeerModel peer = peerOf(agent);
+    tell(agent, peer);
+    const auto structure = peer.structure();
+    ASSERT_TRUE(structure) << peer.findings().text();
+
+    EXPECT_EQ(agesIn(*structure), agesIn(agent.structure()));
+    EXPECT_EQ(std::ranges::count(agesIn(*structure), 2.5), 1);
+    EXPECT_EQ(std::ranges::count(agesIn(*structure), 0.1), 1);
+}
+
+TEST(PeerModel, RefusesAgesOfNothingAndAgesThatAreNone) {
+    for (const char* each :
+         {"", "/boss", "/boss readings /reading", "/boss readings /reading 2.5 more",
+          "/boss readings /plate 2.5", "/boss late /reading 2.5", "/nobody readings /reading 2.5",
+          "/boss readings /reading nan", "/boss readings /reading inf", "/boss readings /reading 0",
+          "/boss readings /reading -1"}) {
+        ToldAgent agent;
+        const auto boss = std::ranges::find_if(agent.models, [](const Model& model) {
+            return std::ranges::find(model.simplexes, "/boss", &SimplexMessage::path) !=
+                   model.simplexes.end();
+        });
+        boss->extras.push_back({"maxAge", each});
+        PeerModel peer = peerOf(agent);
+        tell(agent, peer);
+        EXPECT_EQ(peer.refused(), 1U) << each;
+        EXPECT_FALSE(peer.complete()) << each;
+    }
 }
 
 TEST(PeerModel, HasTheConstantsOfTheOwner) {

@@ -22,8 +22,8 @@ ToldAgent::ToldAgent() {
     tree.relate(boss, "workers", *worker);
     tree.relate(boss, "aides", *worker);
     tree.relate(boss, "late", two, true);
-    tree.relate(boss, "readings", reading);
-    tree.relateRemote(boss, "plates", "/far/plate");
+    tree.relate(boss, "readings", reading, false, 2.5);
+    tree.relateRemote(boss, "plates", "/far/plate", {}, false, 0.1);
     rig.start();
     rig.step();
 

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/make_structure.hpp"
 #include "cortex/core/validation.hpp"
 
 #include "core/model_folder.hpp"
+
+#include <algorithm>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -237,6 +241,49 @@ TEST(Validation, WarnsOfNoMaxAgeThatHoldsOrIsNotStated) {
     for (const CheckedModel* model : {&holds, &ofNoFrequency, &notStated}) {
         EXPECT_EQ(model->report.text(), "");
     }
+}
+
+std::string aged(const std::string& maxAge) {
+    return "<cluster name=\"robot\" frequency=\"1000\"/>\n" +
+           simplex("/d", "Device", relate("observation", "/a")) +
+           simplex("/w", "Watcher", relate("seen", "/a", maxAge)) + simplex("/a", "Axis");
+}
+
+TEST(Validation, TakesTheAgeThatARelationshipAllowsAboveThatOfItsRule) {
+    const auto checked = checkSmall(aged("maxAge=\"2.5\""));
+    EXPECT_EQ(checked.report.text(), "");
+    const auto structure = makeStructure("", *checked.tree);
+    const auto edge = std::ranges::find(structure->edges, structure->find("/w"), &Edge::owner);
+    EXPECT_EQ(edge->maxAge, 2.5);
+    EXPECT_EQ(edge->rule->maxAge, 0.004);
+}
+
+TEST(Validation, RefusesAnAgeBelowThatOfTheRuleAndOneOfAnOutput) {
+    const auto below = only(checkSmall(aged("maxAge=\"0.001\"")));
+    EXPECT_EQ(below.severity, Severity::Error);
+    EXPECT_EQ(below.rule, "max-age");
+    EXPECT_EQ(below.place.line, 9);
+    EXPECT_TRUE(
+        contains(below.message, "maxAge=\"0.001\" is below that of the rule, which is 0.004"))
+        << below.message;
+    const auto output =
+        only(checkSmall(simplex("/d", "Device", relate("observation", "/a", "maxAge=\"1\"")) +
+                        simplex("/a", "Axis")));
+    EXPECT_EQ(output.rule, "on-loss-direction");
+    EXPECT_TRUE(contains(output.remedy, "leave maxAge out")) << output.remedy;
+    for (const char* wrong : {"0", "-1", "nan", "inf", "1 s", ""}) {
+        const auto refused = checkSmall(aged("maxAge=\"" + std::string{wrong} + '"'));
+        EXPECT_EQ(refused.count("attribute-value"), 1U) << wrong << refused.report.text();
+    }
+}
+
+TEST(Validation, AsksWhetherAnAgeAboveTenSecondsMeansMilliseconds) {
+    const auto finding = only(checkSmall(aged("maxAge=\"200\"")));
+    EXPECT_EQ(finding.severity, Severity::Warning);
+    EXPECT_EQ(finding.rule, "max-age");
+    EXPECT_TRUE(contains(finding.remedy, "if milliseconds were meant, write maxAge=\"0.2\""))
+        << finding.remedy;
+    EXPECT_EQ(checkSmall(aged("maxAge=\"10\"")).report.text(), "");
 }
 
 TEST(Validation, WarnsWhereALossIsToMakeSafeWhatIsNoDemand) {

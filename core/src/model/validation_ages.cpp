@@ -32,11 +32,13 @@ public:
 
     void check() const {
         for (std::size_t first = 0, end = 0; first < relations_.size(); first = end) {
-            while (end < relations_.size() && relations_[end].rule == relations_[first].rule) {
-                if (isRight(relations_[end])) checkLong(relations_[end], end == first);
-                ++end;
+            bool areRight = true;
+            for (; end < relations_.size() && relations_[end].rule == relations_[first].rule;
+                 ++end) {
+                areRight = isRight(relations_[end]) && areRight;
+                checkLong(relations_[end], end == first);
             }
-            checkRaised(first, end);
+            if (areRight) checkRaised(first, end);
         }
     }
 
