@@ -262,7 +262,7 @@ TEST(Validation, RefusesAnAgeBelowThatOfTheRuleAndOneOfAnOutput) {
     const auto below = only(checkSmall(aged("maxAge=\"0.001\"")));
     EXPECT_EQ(below.severity, Severity::Error);
     EXPECT_EQ(below.rule, "max-age");
-    EXPECT_EQ(below.place.line, 9);
+    EXPECT_EQ(below.place.line, 8);
     EXPECT_TRUE(
         contains(below.message, "maxAge=\"0.001\" is below that of the rule, which is 0.004"))
         << below.message;
