@@ -15,6 +15,14 @@ namespace {
 constexpr std::chrono::seconds grace{1};
 // A start-up without an answer, as no tick comes or a transition takes long, is over after this.
 constexpr std::chrono::seconds longest{60};
+std::vector<std::uint32_t> notGoodIn(const Image& image) {
+    std::vector<std::uint32_t> simplexes;
+    for (std::uint32_t i = 0; i < image.structure().simplexes.size(); ++i) {
+        if (image.state(i).quality != Quality::Good) simplexes.push_back(i);
+    }
+    return simplexes;
+}
+
 constexpr std::string_view notLinked = "is not linked: ";  // as the links of an agent say it
 
 }  // namespace
@@ -57,8 +65,9 @@ void StartUp::look() {
         return tell(answer);
     }
     const Image image = cluster_.image();
-    const MissingLinks missing = missingLinks(image);
-    if (missing == missing_ && sent_ != 0) return;
+    const MissingLinks missing = missingLinks(cluster_.agent());
+    noteActive(image);
+    if (missing == missing_ && sent_ != 0 && !mayFollowNow(image)) return;
     if (!missing.empty() && !std::exchange(told_, true)) std::cerr << missingText(missing);
     if (!missing.empty() && Clock::now() - *began_ < grace) return;
     missing_ = missing;
@@ -66,6 +75,7 @@ void StartUp::look() {
     if (stopped.empty()) return send(image);
     std::cerr << "startup: " << stopped << " was shut down since, so the rest is left to you: "
               << "cortex call " << path_ << " startup prefix=/" << std::endl;
+    notGood_.clear();
     complete_ = missing.empty();
 }
 
@@ -76,6 +86,7 @@ void StartUp::again() {
     missing_.clear();
     started_.clear();
     notFollowed_.clear();
+    notGood_.clear();
 }
 
 std::string StartUp::missingText(const MissingLinks& missing) const {
@@ -88,20 +99,23 @@ std::string StartUp::missingText(const MissingLinks& missing) const {
 }
 
 void StartUp::send(const Image& image) {
-    started_ = activeIn(image);
+    noteActive(image);
     sent_ = cluster_.send(path_, "startup", {{"prefix", Value{std::vector<std::string>{"/"}}}});
     answerIsDue_ = true;
 }
 
 void StartUp::tell(const CallResult& answer) {
     const Image image = cluster_.image();
-    started_ = activeIn(image);
-    complete_ = missing_.empty();
+    noteActive(image);
+    notGood_ = answer.done() ? std::vector<std::uint32_t>{} : notGoodIn(image);
+    nextTry_ = Clock::now() + grace;
+    complete_ = missing_.empty() && notGood_.empty();
     over_ = true;
-    notFollowed_ = answer.done() ? "" : "startup: " + answer.text() + "\n";
+    const std::string before =
+        std::exchange(notFollowed_, answer.done() ? "" : "startup: " + answer.text() + "\n");
     const std::string faults = faultLines(image);
     if (!answer.done())
-        std::cerr << notFollowed_ << std::flush;
+        std::cerr << (notFollowed_ == before ? "" : notFollowed_) << std::flush;
     else if (faults.empty())
         std::cout << "all active simplexes are started" << std::endl;
     else
@@ -115,15 +129,22 @@ void StartUp::tellOverdue() {
     std::cerr << notFollowed_ << std::flush;
 }
 
-std::vector<std::string> StartUp::activeIn(const Image& image) const {
-    std::vector<std::string> paths;
+void StartUp::noteActive(const Image& image) {
     for (const SimplexInfo& info : image.structure().simplexes) {
         if (!info.remote && info.layout->type->isA("Active") &&
             image.get<std::int64_t>(info.path, "state") == static_cast<int>(State::Active)) {
-            paths.push_back(info.path);
+            started_.insert(info.path);
         }
     }
-    return paths;
+}
+
+// Data is good that was not when somebody did not follow, perhaps for that.
+bool StartUp::mayFollowNow(const Image& image) {
+    if (notGood_.empty() || Clock::now() < nextTry_) return false;
+    nextTry_ = Clock::now() + grace;
+    return std::ranges::any_of(notGood_, [&](std::uint32_t simplex) {
+        return image.state(simplex).quality == Quality::Good;
+    });
 }
 
 // Whoever stopped something meanwhile does not want it to be started again.
@@ -135,7 +156,7 @@ std::string StartUp::shutDownSince(const Image& image) const {
 }
 
 std::string StartUp::endText() const {
-    return notFollowed_ + missingText(complete_ ? MissingLinks{} : missingLinks(cluster_.image()));
+    return notFollowed_ + missingText(complete_ ? MissingLinks{} : missingLinks(cluster_.agent()));
 }
 
 NotStarted::NotStarted(cs::ClusterCS& cluster, std::string agentName,

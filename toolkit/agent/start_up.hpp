@@ -11,13 +11,15 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace cortex::toolkit {
 
-// --startup: starts all, once more when another agent has come that some wait for, and says who did
-// not follow. Program's thread; made before the cluster starts, for what its events say.
+// --startup: starts all, and says who did not follow. Once more when another agent has come that
+// some wait for, or when data is good that was not when somebody did not follow. Program's thread;
+// made before the cluster starts, for what its events say.
 class StartUp {
 public:
     StartUp(cs::ClusterCS& cluster, std::string agentName);
@@ -40,7 +42,8 @@ private:
     void send(const Image& image);
     void tell(const CallResult& answer);
     void tellOverdue();
-    std::vector<std::string> activeIn(const Image& image) const;
+    bool mayFollowNow(const Image& image);
+    void noteActive(const Image& image);
     std::string shutDownSince(const Image& image) const;
 
     cs::ClusterCS& cluster_;
@@ -48,9 +51,11 @@ private:
     std::optional<Clock::time_point> began_;  // the first look
     std::uint64_t sent_ = 0;
     bool answerIsDue_ = false, told_ = false, complete_ = false, over_ = false;
-    MissingLinks missing_;              // when the command was sent last
-    std::vector<std::string> started_;  // by it
-    std::string notFollowed_;           // what it was answered
+    MissingLinks missing_;                // when the command was sent last
+    std::set<std::string> started_;       // what was Active since
+    std::string notFollowed_;             // what it was answered
+    std::vector<std::uint32_t> notGood_;  // of our simplexes, when some did not follow
+    Clock::time_point nextTry_;
     std::shared_ptr<Hints> hints_;
 };
 

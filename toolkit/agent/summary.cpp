@@ -134,12 +134,12 @@ std::string countLine(const std::string& title, std::uint64_t count) {
     return "  " + left(title, 20) + right(std::to_string(count), 11) + "\n";
 }
 
-MissingLinks missingLinks(const Image& image) {
-    const Structure& structure = image.structure();
+MissingLinks missingLinks(const AgentRuntime& agent) {
+    const Structure& structure = agent.structure();
     MissingLinks missing;
     for (const Edge& edge : structure.edges) {
         const bool needed = structure.simplexes[edge.target].remote && edge.rule->min > 0;
-        if (needed && image.state(edge.target).quality == Quality::Lost)
+        if (needed && !agent.isLinked(edge.target))
             missing.emplace(structure.simplexes[edge.target].path,
                             structure.simplexes[edge.owner].path);
     }

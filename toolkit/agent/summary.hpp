@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cortex/core/agent.hpp"
 #include "cortex/core/image.hpp"
 
 #include <cstdint>
@@ -21,7 +22,7 @@ std::string countLine(const std::string& title, std::uint64_t count);
 // Paths of other agents that are not linked and without which a simplex cannot start, with that
 // simplex.
 using MissingLinks = std::map<std::string, std::string>;
-MissingLinks missingLinks(const Image& image);
+MissingLinks missingLinks(const AgentRuntime& agent);
 
 // Simplexes in Fault and why, a line each; "" if there is none.
 std::string faultLines(const Image& image);

@@ -156,6 +156,7 @@ void AgentRuntime::bindSimplexes() {
     linkLosses_.assign(count - firstRemote_, 0);
     everOffered_.assign(count - firstRemote_, false);
     everLinked_.assign(count - firstRemote_, false);
+    linked_ = std::make_unique<std::atomic<bool>[]>(count - firstRemote_);
     calls_ = std::make_unique<std::atomic<std::uint8_t>[]>(count);
     callsLater_ = std::make_unique<std::atomic<std::uint8_t>[]>(count);
     for (std::uint32_t i = 0; i < count; ++i) {

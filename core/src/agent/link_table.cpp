@@ -59,7 +59,7 @@ void LinkTable::link(std::uint32_t simplex, const LinkBinding& binding, const Sl
     link->period = std::max(binding.period, runtime_.options().period);
     runtime_.ownerPeriods_[simplex - runtime_.firstRemote_] = link->period;
     if (!link->bound) post(Severity::Info, simplex, "linked");
-    link->bound = true;
+    setBound(*link, true);
     runtime_.everOffered_[simplex - first_] = true;
     runtime_.everLinked_[simplex - first_] = true;
     link->interface = interface;
@@ -76,11 +76,16 @@ void LinkTable::constants(std::uint32_t simplex, const LinkBinding& binding, con
 void LinkTable::lost(std::uint32_t simplex) {
     Link* link = find(simplex);
     if (link == nullptr || !link->bound) return;
-    link->bound = false;
+    setBound(*link, false);
     ++runtime_.linkLosses_[simplex - first_];
     link->slice.state->quality = Quality::Lost;
     link->slice.state->cause = simplex;
     if (!link->reported) post(Severity::Warning, simplex, "link lost: its agent is not heard");
+}
+
+void LinkTable::setBound(Link& link, bool bound) {
+    link.bound = bound;
+    runtime_.linked_[link.simplex - first_].store(bound, std::memory_order_relaxed);
 }
 
 void LinkTable::age() {

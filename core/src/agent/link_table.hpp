@@ -40,6 +40,7 @@ private:
         bool bound = false, reported = false;
     };
     Link* find(std::uint32_t simplex) CORTEX_REALTIME;
+    void setBound(Link& link, bool bound) CORTEX_REALTIME;
     void tellMissing(bool offered, const char* what) CORTEX_REALTIME;
     void post(Severity severity, std::uint32_t simplex, const char* text) CORTEX_REALTIME;
 

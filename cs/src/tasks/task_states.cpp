@@ -95,7 +95,7 @@ bool TaskStates::mayStart(Task& task) {
     SimplexCS& simplex = *task.simplex;
     for (const TaskInput& input : set_.inputsOf(task)) {
         const SimplexInfo& target = set_.structure.simplexes[input.target];
-        if (target.remote && input.rule->min > 0 && input.state->quality == Quality::Lost) {
+        if (target.remote && input.rule->min > 0 && !set_.agent.isLinked(input.target)) {
             const bool silent =
                 set_.agent.everOffered(input.target) && set_.agent.neverLinked(input.target);
             simplex.thread_->text << "startup needs " << input.rule->name << ", but " << target.path

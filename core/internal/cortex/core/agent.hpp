@@ -106,6 +106,10 @@ public:
     bool neverLinked(std::uint32_t simplex) const CORTEX_REALTIME {
         return isRemote(simplex) && !everLinked_[simplex - firstRemote_];
     }
+    // One that is linked now and of which a value has come, of whatever quality. Any thread.
+    bool isLinked(std::uint32_t simplex) const CORTEX_REALTIME {
+        return isRemote(simplex) && linked_[simplex - firstRemote_].load(std::memory_order_relaxed);
+    }
     bool everOffered(std::uint32_t simplex) const CORTEX_REALTIME {
         return isRemote(simplex) && everOffered_[simplex - firstRemote_];
     }
@@ -205,9 +209,10 @@ private:
     std::vector<CommunicationInterface*> interfaces_;
     std::vector<LoopThread> threads_;
     PresentCycle present_;
-    std::vector<std::int64_t> ownerPeriods_;      // of remote simplexes, which are the last
-    std::vector<std::uint32_t> linkLosses_;       // the same
-    std::vector<bool> everOffered_, everLinked_;  // the same
+    std::vector<std::int64_t> ownerPeriods_;       // of remote simplexes, which are the last
+    std::vector<std::uint32_t> linkLosses_;        // the same
+    std::vector<bool> everOffered_, everLinked_;   // the same
+    std::unique_ptr<std::atomic<bool>[]> linked_;  // the same
     std::uint32_t firstRemote_ = 0;
     // Per simplex, bits: pending life-cycle commands, and whether its port has work.
     std::unique_ptr<std::atomic<std::uint8_t>[]> calls_, callsLater_;
