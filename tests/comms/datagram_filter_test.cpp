@@ -222,7 +222,8 @@ TEST_F(FilterTest, AWriterOfWhichMuchWasLostGoesOn) {
 // again.
 TEST_F(FilterTest, AnAnnouncementThatIsSaidAgainIsTakenAfterALongLoss) {
     const auto announces = [](std::int64_t number) {
-        return header() + data(number, discoveryWriter, 4, Datagram{0, 3, 0, 0} + endOfList);
+        return header() +
+               data(number, discoveryWriter, 4, Datagram{0, 3, 0, 0} + guidOf() + endOfList);
     };
     ASSERT_EQ(refusal(announces(1)), Refusal::None);
     now += 50'000'000'000;
@@ -230,6 +231,104 @@ TEST_F(FilterTest, AnAnnouncementThatIsSaidAgainIsTakenAfterALongLoss) {
     EXPECT_EQ(refusal(announces(600)), Refusal::Number) << "at once: one datagram, twice";
     now += 3'000'000'000;
     EXPECT_EQ(refusal(announces(600)), Refusal::None);
+}
+
+Datagram locator(std::uint32_t where, std::uint32_t port = 7411, int id = 0x0032) {
+    Datagram content;
+    put(content, 1, 4);
+    put(content, port, 4);
+    content.resize(20);
+    putEntity(content, where);
+    return parameter(id, content);
+}
+
+constexpr std::uint32_t group = 0xefff0001;
+
+// A participant of `prefix`, from an address, and what it says of itself.
+struct Saying {
+    Datagram parameters;
+    std::uint32_t from = address;
+    std::uint8_t prefix = 1;
+    std::uint8_t sender = 1;
+};
+
+struct PlacesTest : FilterTest {
+    Refusal said(const Saying& saying) {
+        now += 100'000'000;
+        Datagram datagram =
+            header(saying.sender) +
+            data(1, discoveryWriter, 4,
+                 Datagram{0, 3, 0, 0} + guidOf(saying.prefix) + saying.parameters + endOfList);
+        const auto dropped = [&] { return filter.dropped(Refusal::Places); };
+        const std::uint64_t before = dropped();
+        if (filter.admit(datagram, saying.from, now).left > 0) return Refusal::None;
+        return dropped() > before ? Refusal::Places : Refusal::Content;
+    }
+
+    const Datagram here = locator(address);
+};
+
+TEST_F(PlacesTest, AParticipantKeepsTheAddressesThatItAnnouncedFirst) {
+    ASSERT_EQ(said({here}), Refusal::None);
+    EXPECT_EQ(said({here}), Refusal::None);
+    EXPECT_EQ(said({locator(0x7f000063)}), Refusal::Places);
+    EXPECT_EQ(said({locator(address, 7413)}), Refusal::Places);
+    EXPECT_EQ(said({here + locator(0x0a000063)}), Refusal::Places);
+    EXPECT_EQ(said({locator(0x0a000063, 7411, 0x0031) + here}), Refusal::Places);
+    EXPECT_EQ(said({{}}), Refusal::Places);
+    EXPECT_EQ(said({here}), Refusal::None);
+    EXPECT_EQ(filter.dropped(Refusal::Places), 5U);
+    EXPECT_NE(filter.summary().find("other addresses than at first"), std::string::npos);
+}
+
+TEST_F(PlacesTest, AParticipantMayNameTheGroupOfItsDomainLaterAndNoOther) {
+    ASSERT_EQ(said({here}), Refusal::None);
+    EXPECT_EQ(said({locator(group, 7400, 0x0033) + here}), Refusal::None);
+    EXPECT_EQ(said({here}), Refusal::None);
+    EXPECT_EQ(said({locator(group, 7401, 0x0033) + here}), Refusal::Places);
+    EXPECT_EQ(said({locator(group + 1, 7400, 0x0033) + here}), Refusal::Places);
+    EXPECT_EQ(said({locator(0x0a000063, 7400, 0x0048) + here}), Refusal::Places);
+}
+
+TEST_F(PlacesTest, OnlyAParticipantItselfAnnouncesItFromWhereItIs) {
+    EXPECT_EQ(said({.parameters = here, .prefix = 2}), Refusal::Places) << "another one";
+    ASSERT_EQ(said({here}), Refusal::None);
+    EXPECT_EQ(said({here, 0x0a000008}), Refusal::Places);
+    EXPECT_EQ(said({here, 0x7f000001}), Refusal::None) << "from this host";
+    EXPECT_EQ(said({.parameters = here + locator(0x0a000009),
+                    .from = 0xc0000201,
+                    .prefix = 3,
+                    .sender = 3}),
+              Refusal::None)
+        << "behind another address, from the first time on";
+    EXPECT_EQ(said({.parameters = here + locator(0x0a000009),
+                    .from = 0xc0000201,
+                    .prefix = 3,
+                    .sender = 3}),
+              Refusal::None);
+}
+
+TEST_F(PlacesTest, AnotherParticipantMayHaveItsIdAfterALease) {
+    ASSERT_EQ(said({here}), Refusal::None);
+    now += leaseOfParticipant - 5'000'000'000;
+    EXPECT_EQ(said({locator(0x0a000063), 0x0a000063}), Refusal::Places) << "also after a goodbye";
+    now += 6'000'000'000;
+    EXPECT_EQ(said({locator(0x0a000063), 0x0a000063}), Refusal::None);
+    EXPECT_EQ(said({here}), Refusal::Places);
+}
+
+TEST_F(PlacesTest, ADiscoveryServerPassesOnWhatParticipantsSay) {
+    DatagramFilter relayed{us, 0, true};
+    const auto passes = [&](const Datagram& parameters) {
+        now += 100'000'000;
+        Datagram datagram =
+            header(7) +
+            data(1, discoveryWriter, 4, Datagram{0, 3, 0, 0} + guidOf(2) + parameters + endOfList);
+        return relayed.admit(datagram, 0x0a0000ff, now).left > 0;
+    };
+    EXPECT_TRUE(passes(here));
+    EXPECT_FALSE(passes(locator(0x0a000063)));
+    EXPECT_TRUE(passes(here));
 }
 
 // As where a program of another domain has taken one of our ports.

@@ -68,8 +68,12 @@ inline Datagram data(std::int64_t number, std::uint32_t writer = anyWriter, int 
     putNumber(body, number);
     return submessage(0x15, flags, body + rest);
 }
+// The name of the participant that header(prefix) is of.
+inline Datagram guidOf(std::uint8_t prefix = 1) {
+    return parameter(0x0050, Datagram(12, prefix) + Datagram{0, 0, 1, 0xc1});
+}
 inline Datagram announcement(const Datagram& parameters) {
-    return data(1, discoveryWriter, 4, Datagram{0, 3, 0, 0} + parameters);
+    return data(1, discoveryWriter, 4, Datagram{0, 3, 0, 0} + guidOf() + parameters);
 }
 
 struct Fragment {

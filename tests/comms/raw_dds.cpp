@@ -105,7 +105,8 @@ RawWriter::RawWriter(const NetworkOptions& options, const Topic& topic, const st
     : impl_{std::make_unique<Impl>()} {
     setUpFastDds();
     dds::DomainParticipantQos qos = participantQos(options, "raw");
-    const auto gate = addGate(qos, options.domain);  // makes up for races in Fast DDS
+    const auto gate = addGate(qos, options.domain,
+                              !options.discoveryServer.empty());  // makes up for races in Fast DDS
     impl_->participant = dds::DomainParticipantFactory::get_instance()->create_participant(
         static_cast<dds::DomainId_t>(options.domain), qos);
     const auto held = gate->hold();

@@ -137,10 +137,11 @@ std::unique_lock<std::mutex> Gate::pass() {
     return passing;
 }
 
-std::shared_ptr<Gate> addGate(eprosima::fastdds::dds::DomainParticipantQos& qos, int domain) {
+std::shared_ptr<Gate> addGate(eprosima::fastdds::dds::DomainParticipantQos& qos, int domain,
+                              bool isRelayed) {
     rtps::Prefix us;
     std::copy_n(qos.wire_protocol().prefix.value, us.size(), us.begin());
-    auto gate = std::make_shared<Gate>(us, domain);
+    auto gate = std::make_shared<Gate>(us, domain, isRelayed);
     auto& lower = qos.transport().user_transports.front();
     lower = std::make_shared<GatedTransportDescriptor>(lower, gate);
     return gate;

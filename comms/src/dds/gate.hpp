@@ -38,7 +38,8 @@ namespace cortex::comms {
 //    thread misses it.
 class Gate {
 public:
-    explicit Gate(const rtps::Prefix& us = {}, int domain = 0) : filter{us, domain} {}
+    explicit Gate(const rtps::Prefix& us = {}, int domain = 0, bool isRelayed = false)
+        : filter{us, domain, isRelayed} {}
 
     void open();
     // Drops everything from now on.
@@ -74,6 +75,8 @@ private:
 // 3. An assertion ends the process when a participant leaves while its lease is checked. So a
 //    participant that leaves closes its gate first.
 // What is lost comes again with the next announcement, or after a second in a handshake.
-std::shared_ptr<Gate> addGate(eprosima::fastdds::dds::DomainParticipantQos& qos, int domain);
+// `isRelayed`: a Discovery Server passes on what participants say.
+std::shared_ptr<Gate> addGate(eprosima::fastdds::dds::DomainParticipantQos& qos, int domain,
+                              bool isRelayed);
 
 }  // namespace cortex::comms

@@ -211,7 +211,7 @@ Participant::Participant(const NetworkOptions& options, const std::string& name,
     static std::mutex joining;  // Fast DDS looks up the user, which is not safe for two threads
     const std::lock_guard lock{joining};
     dds::DomainParticipantQos qos = participantQos(options, name);
-    impl_->gate = addGate(qos, options.domain);
+    impl_->gate = addGate(qos, options.domain, !options.discoveryServer.empty());
     impl_->listener->onWriter = [gate = impl_->gate](const auto& guid, std::string_view topic) {
         if (mayBeFragmented(topic)) {
             gate->filter.allowFragments(writerGuid(guid), topic == topics::model.name,

@@ -121,13 +121,14 @@ Refusal DatagramFilter::judge(Bytes& datagram, std::uint32_t address, std::int64
     const Prefix sender = prefixAt(datagram.subspan(senderAt));
     const Refusal found = participants_.judge(sender, address, now);
     if (found != Refusal::None || order.isSigned()) return found;
-    return judgeNumbers(datagram, sender, now);
+    return judgeNumbers(datagram, sender, address, now);
 }
 
 // A gap that goes further than its writer did passes if the writer goes on behind it in the same
 // datagram: what Fast DDS sends to a new reader of a writer that took samples back. What announces
 // an endpoint of a foreign topic becomes a gap.
-Refusal DatagramFilter::judgeNumbers(Bytes& datagram, Prefix sender, std::int64_t now) {
+Refusal DatagramFilter::judgeNumbers(Bytes& datagram, Prefix sender, std::uint32_t address,
+                                     std::int64_t now) {
     bool isForUs = true;
     std::optional<WriterGuid> ofGap;
     for (std::size_t at = headerSize; at < datagram.size();) {
@@ -139,7 +140,7 @@ Refusal DatagramFilter::judgeNumbers(Bytes& datagram, Prefix sender, std::int64_
             isForUs = destination == us_ || destination == Prefix{};
         }
         if (!isForUs) continue;
-        const Refusal found = judgeNumber(submessage, sender, now);
+        const Refusal found = judgeNumber(submessage, sender, address, now);
         if (found != Refusal::None) {
             if (submessage.kind != Kind::Gap || ofGap) return found;
             ofGap = guidOf(sender, submessage.body.subspan(4));
@@ -155,7 +156,7 @@ Refusal DatagramFilter::judgeNumbers(Bytes& datagram, Prefix sender, std::int64_
 }
 
 Refusal DatagramFilter::judgeNumber(const Submessage& submessage, const Prefix& sender,
-                                    std::int64_t now) {
+                                    std::uint32_t address, std::int64_t now) {
     const auto unless = [](bool good) { return good ? Refusal::None : Refusal::Number; };
     const Bytes body = submessage.body;
     const bool little = submessage.little();
@@ -166,6 +167,9 @@ Refusal DatagramFilter::judgeNumber(const Submessage& submessage, const Prefix& 
                 return Refusal::Number;
             if (const std::int64_t named = domainIn(submessage); named >= 0 && named != domain_)
                 return Refusal::Domain;
+            if (const Refusal found = places_.judge(submessage, sender, address, now);
+                found != Refusal::None)
+                return found;
             return judgeEndpoint(submessage, sender, now);
         case Kind::DataFragments: {
             const WriterGuid writer = guidOf(sender, body.subspan(8));

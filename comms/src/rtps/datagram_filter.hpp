@@ -4,6 +4,7 @@
 #include "rtps/endpoint_limits.hpp"
 #include "rtps/fragments.hpp"
 #include "rtps/participant_limits.hpp"
+#include "rtps/participant_places.hpp"
 #include "rtps/refusal.hpp"
 #include "rtps/submessages.hpp"
 #include "rtps/writer_numbers.hpp"
@@ -22,7 +23,9 @@ namespace cortex::comms::rtps {
 // It takes memory for fragments and for names of endpoints only, both within bounds. Any thread.
 class DatagramFilter {
 public:
-    explicit DatagramFilter(const Prefix& us, int domain = 0) : us_{us}, domain_{domain} {}
+    // `isRelayed`: a Discovery Server passes on what participants say.
+    explicit DatagramFilter(const Prefix& us, int domain = 0, bool isRelayed = false)
+        : us_{us}, domain_{domain}, places_{domain, isRelayed} {}
 
     struct Admitted {
         // The fragments of a sample that has all of them now, to be processed before the rest.
@@ -53,8 +56,9 @@ public:
 
 private:
     Refusal judge(Bytes& datagram, std::uint32_t address, std::int64_t now);
-    Refusal judgeNumbers(Bytes& datagram, Prefix sender, std::int64_t now);
-    Refusal judgeNumber(const Submessage& submessage, const Prefix& sender, std::int64_t now);
+    Refusal judgeNumbers(Bytes& datagram, Prefix sender, std::uint32_t address, std::int64_t now);
+    Refusal judgeNumber(const Submessage& submessage, const Prefix& sender, std::uint32_t address,
+                        std::int64_t now);
     Refusal judgeEndpoint(const Submessage& submessage, const Prefix& sender, std::int64_t now);
     bool isEcho(const Submessage& data, const Prefix& sender) const;
     std::vector<Message> takeFragments(Bytes& datagram, std::int64_t now);
@@ -67,6 +71,7 @@ private:
     const std::int64_t domain_;
     mutable std::mutex mutex_;
     ParticipantLimits participants_;
+    ParticipantPlaces places_;
     WriterNumbers numbers_;
     RecentTable<WriterGuid, std::int64_t> sent_{256};  // the newest number of each of our writers
     RecentTable<WriterGuid, bool> fragmented_{4096};   // whether a lost sample comes again

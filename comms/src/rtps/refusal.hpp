@@ -20,9 +20,10 @@ enum class Refusal : std::uint8_t {
     Endpoints,  // an announcement of one endpoint more than a participant or the network may have
     Echo,       // what this participant itself has sent to a group of which it is
     Domain,     // a participant that says that it is of another domain
+    Places,     // a participant that says other addresses than at first, or that another announces
     Early,      // of one that was silent for a lease, a moment after it came back
 };
-inline constexpr std::size_t refusals = 13;
+inline constexpr std::size_t refusals = 14;
 
 // What belongs to a network that works is not.
 constexpr bool isCounted(Refusal refusal) {
@@ -44,6 +45,7 @@ constexpr const char* wordsOf(Refusal refusal) {
         "they announce more endpoints than there is room for",
         "they are its own",
         "they announce participants of another domain, which uses our ports",
+        "they announce a participant with other addresses than at first, as a forger does",
         "their sender came back just now",
     };
     return words[static_cast<std::size_t>(refusal)];
