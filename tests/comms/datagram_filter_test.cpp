@@ -273,9 +273,10 @@ TEST_F(PlacesTest, AParticipantKeepsTheAddressesThatItAnnouncedFirst) {
     EXPECT_EQ(said({here}), Refusal::None);
     EXPECT_EQ(said({locator(0x7f000063)}), Refusal::Places);
     EXPECT_EQ(said({locator(address, 7413)}), Refusal::Places);
-    EXPECT_EQ(said({here + locator(0x0a000063)}), Refusal::Places);
+    EXPECT_EQ(said({locator(0x0a000063) + here}), Refusal::Places);
     EXPECT_EQ(said({locator(0x0a000063, 7411, 0x0031) + here}), Refusal::Places);
     EXPECT_EQ(said({{}}), Refusal::Places);
+    EXPECT_EQ(said({here + locator(address, 7413)}), Refusal::None) << "one more behind it";
     EXPECT_EQ(said({here}), Refusal::None);
     EXPECT_EQ(filter.dropped(Refusal::Places), 5U);
     EXPECT_NE(filter.summary().find("other addresses than at first"), std::string::npos);

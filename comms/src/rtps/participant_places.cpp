@@ -5,7 +5,7 @@
 #include "wire/presence_interval.hpp"
 
 #include <algorithm>
-#include <span>
+#include <iterator>
 #include <string>
 
 namespace cortex::comms::rtps {
@@ -13,21 +13,16 @@ namespace {
 
 // Identifiers of parameters: RTPS 2.3, 9.6.3.
 constexpr std::uint16_t participantGuid = 0x0050, sentinel = 0x0001;
-constexpr std::uint16_t unicastIds[] = {0x002f, 0x0031, 0x0032},
-                        groupIds[] = {0x0030, 0x0033, 0x0048};
+constexpr std::uint16_t ownIds[] = {0x002f, 0x0031, 0x0032}, groupIds[] = {0x0030, 0x0033, 0x0048};
 constexpr std::uint32_t udpV4 = 1, loopback = 127, groupOfDiscovery = 0xefff0001;
 
 // What an announcement says of where a participant is.
-struct Places {
+struct Said {
     Prefix participant{};
-    TypeHash hash{};         // of its own addresses
+    ParticipantPlaces::Places places;
     bool hasSender = false;  // among them, the address that it came from
     bool isOfGroup = true;   // it is in no other group than that for discovery of its domain
 };
-
-bool isOneOf(std::span<const std::uint16_t> ids, std::uint16_t id) {
-    return std::ranges::find(ids, id) != ids.end();
-}
 
 struct Locator {
     std::uint32_t kind = 0, port = 0, address = 0;
@@ -40,12 +35,14 @@ Locator locatorIn(Bytes content, bool little) {
             readU32(content.subspan(20), false)};
 }
 
-Places placesIn(Bytes parameters, bool little, std::uint32_t address, std::uint32_t port) {
-    Places places;
+// At most so many places of each kind are looked at.
+Said read(Bytes parameters, bool little, std::uint32_t address, std::uint32_t port,
+          const ParticipantPlaces::Counts& most) {
+    Said said;
     const Bytes guid = parameterOf(parameters, little, participantGuid);
-    if (guid.size() >= places.participant.size())
-        std::copy_n(guid.begin(), places.participant.size(), places.participant.begin());
-    places.hasSender = address >> 24 == loopback;
+    if (guid.size() >= said.participant.size())
+        std::copy_n(guid.begin(), said.participant.size(), said.participant.begin());
+    said.hasSender = address >> 24 == loopback;
     std::string text;
     for (std::size_t at = 0; at + 4 <= parameters.size();) {
         const std::uint16_t id = readU16(parameters.subspan(at), little);
@@ -54,16 +51,20 @@ Places placesIn(Bytes parameters, bool little, std::uint32_t address, std::uint3
         const Bytes whole = parameters.subspan(at, 4 + size);
         at += whole.size();
         const Locator locator = locatorIn(whole.subspan(4), little);
-        if (isOneOf(groupIds, id))
-            places.isOfGroup = places.isOfGroup && locator.kind == udpV4 &&
-                               locator.address == groupOfDiscovery && locator.port == port;
-        if (!isOneOf(unicastIds, id)) continue;
+        if (std::ranges::find(groupIds, id) != std::end(groupIds))
+            said.isOfGroup = said.isOfGroup && locator.kind == udpV4 &&
+                             locator.address == groupOfDiscovery && locator.port == port;
+        const auto* const kind = std::ranges::find(ownIds, id);
+        if (kind == std::end(ownIds)) continue;
+        const auto place = static_cast<std::size_t>(kind - std::begin(ownIds));
+        std::uint8_t& count = said.places.counts[place];
+        if (count == most[place] && count > 0) continue;
+        ++count;
         text.append(whole.begin(), whole.end());
-        places.hasSender =
-            places.hasSender || (locator.kind == udpV4 && locator.address == address);
+        said.hasSender = said.hasSender || (locator.kind == udpV4 && locator.address == address);
     }
-    places.hash = hashOf(text);
-    return places;
+    said.places.hash = hashOf(text);
+    return said;
 }
 
 }  // namespace
@@ -75,16 +76,22 @@ Refusal ParticipantPlaces::judge(const Submessage& data, const Prefix& sender,
         return Refusal::None;
     const Bytes payload = partsOf(data).payload;
     const bool little = (payload[1] & 1) != 0;
-    const Places said = placesIn(payload.subspan(4), little, address, groupPort_);
+    constexpr Counts all{255, 255, 255};
+    const auto readWith = [&](const Counts& most) {
+        return read(payload.subspan(4), little, address, groupPort_, most);
+    };
+    const Said said = readWith(all);
     if (!said.isOfGroup || (!isRelayed_ && said.participant != sender)) return Refusal::Places;
     auto* const known = known_.find(said.participant);
     if (known == nullptr) {
-        known_.placeFor(said.participant) = {said.participant, now, {said.hash, address}};
+        known_.placeFor(said.participant) = {said.participant, now, {said.places, address}};
         return Refusal::None;
     }
-    if (now - known->met > leaseOfParticipant) known->value = {said.hash, address};
-    const bool isItsOwn = isRelayed_ || said.hasSender || address == known->value.address;
-    if (said.hash != known->value.hash || !isItsOwn) return Refusal::Places;
+    First& first = known->value;
+    if (now - known->met > leaseOfParticipant) first = {said.places, address};
+    const Said same = readWith(first.places.counts);
+    const bool isItsOwn = isRelayed_ || same.hasSender || address == first.address;
+    if (same.places != first.places || !isItsOwn) return Refusal::Places;
     known->met = now;
     return Refusal::None;
 }

@@ -7,6 +7,7 @@
 #include "rtps/recent_table.hpp"
 #include "rtps/submessages.hpp"
 
+#include <array>
 #include <cstdint>
 
 namespace cortex::comms::rtps {
@@ -15,9 +16,16 @@ namespace cortex::comms::rtps {
 // that is said to end: so a forged goodbye and a forged announcement with wrong addresses would
 // part two agents. A participant of CorteX keeps its addresses; where they change, it joins anew
 // under another id. So those of the first announcement hold, also for a lease after it was heard
-// last; the group may be named later. One thread at a time.
+// last. Fast DDS 2.9 may name more behind them later, and the group. One thread at a time.
 class ParticipantPlaces {
 public:
+    using Counts = std::array<std::uint8_t, 3>;  // of kinds of addresses
+    struct Places {
+        Counts counts{};
+        TypeHash hash{};
+        bool operator==(const Places&) const = default;
+    };
+
     // `isRelayed`: a Discovery Server passes on what participants say.
     ParticipantPlaces(int domain, bool isRelayed)
         : isRelayed_{isRelayed}, groupPort_{7400 + 250 * static_cast<std::uint32_t>(domain)} {}
@@ -30,7 +38,7 @@ private:
     const bool isRelayed_;
     const std::uint32_t groupPort_;  // RTPS 2.3, 9.6.1.1
     struct First {
-        TypeHash hash{};            // of its addresses
+        Places places;
         std::uint32_t address = 0;  // that it came from
     };
     RecentTable<Prefix, First> known_{4 * ParticipantLimits::most};
