@@ -182,5 +182,24 @@ TEST(ClassRegistry, RefusesAPluginThatChangesTheFloatingPointModeAndRestoresIt) 
 }
 #endif
 
+// Each tenth of a hundredth of it; what is left of one that ends behind its last part may load.
+TEST(Plugin, ThatWasCutOffIsRefusedInWordsAtEachLength) {
+    const test::ModelFolder folder;
+    const std::string whole = test::textOf(plugin("good"));
+    ASSERT_GT(whole.size(), 10'000U);
+    std::size_t refused = 0;
+    for (std::size_t part = 0; part < 100; ++part) {
+        ClassRegistry registry;
+        const auto file = folder.write("cut" + std::to_string(part) + ".so",
+                                       whole.substr(0, whole.size() * part / 100));
+        const std::string why = refusal(file, registry);
+        if (why.empty()) continue;
+        ++refused;
+        EXPECT_TRUE(contains(why, "is cut off: it has ") || contains(why, "cannot be loaded: "))
+            << part << " %: " << why;
+    }
+    EXPECT_GT(refused, 5U);
+}
+
 }  // namespace
 }  // namespace cortex

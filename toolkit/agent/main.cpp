@@ -3,6 +3,7 @@
 #include "cortex/comms/dds_interface.hpp"
 #include "cortex/core/error.hpp"
 #include "cortex/core/event_sinks.hpp"
+#include "cortex/core/service_threads.hpp"
 #include "cortex/cs/cluster_cs.hpp"
 #include "cortex/toolkit/classes.hpp"
 
@@ -31,6 +32,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <unistd.h>
@@ -293,6 +295,10 @@ int main(int argc, char** argv) {
     } catch (const toolkit::UsageError& error) {
         std::cerr << error.what() << '\n';
         return toolkit::Usage;
+    } catch (const std::system_error& error) {
+        const std::string refused = threadRefused(error);
+        std::cerr << (refused.empty() ? error.what() : refused) << '\n';
+        return toolkit::Refused;
     } catch (const std::exception& error) {
         std::cerr << error.what() << '\n';
         return toolkit::Refused;

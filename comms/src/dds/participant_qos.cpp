@@ -2,6 +2,7 @@
 #include "dds/participant_qos.hpp"
 
 #include "cortex/core/error.hpp"
+#include "cortex/core/service_threads.hpp"
 
 #include "dds/network_address.hpp"
 #include "dds/security_guard.hpp"
@@ -207,6 +208,8 @@ dds::DomainParticipantQos participantQos(const NetworkOptions& options, const st
     }
     refuseServerWithSecurity(options);
     requireFiles();
+    constexpr std::size_t ofParticipant = 8;
+    requireThreads(ofParticipant, "joining the network");
     const int number = freeParticipant(options.domain);
     const auto udp = udpTransport(options);
     dds::DomainParticipantQos qos;

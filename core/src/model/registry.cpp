@@ -9,10 +9,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <set>
 
 #include <dlfcn.h>
+#include <link.h>
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
@@ -38,12 +42,36 @@ void setFloatingPointMode([[maybe_unused]] unsigned mode) {
 #endif
 }
 
+// What the loader would map of a file that was cut off ends the process by a signal. "": all is
+// there, or dlopen() says better what it is.
+std::string cutOff(const std::filesystem::path& file) {
+    std::error_code error;
+    const std::uint64_t size = std::filesystem::file_size(file, error);
+    std::ifstream in{file, std::ios::binary};
+    ElfW(Ehdr) header{};
+    const auto read = [&in](auto& to) {
+        return static_cast<bool>(in.read(reinterpret_cast<char*>(&to), sizeof to));
+    };
+    if (error || !read(header) || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0) return {};
+    std::uint64_t end = header.e_phoff + std::uint64_t{header.e_phnum} * header.e_phentsize;
+    in.seekg(static_cast<std::streamoff>(header.e_phoff));
+    ElfW(Phdr) part{};
+    for (unsigned i = 0; i < header.e_phnum && read(part); ++i) {
+        if (part.p_type == PT_LOAD)
+            end = std::max<std::uint64_t>(end, part.p_offset + part.p_filesz);
+    }
+    if (size >= end) return {};
+    return "is cut off: it has " + std::to_string(size) + " octets of at least " +
+           std::to_string(end) + "; copy or build it again";
+}
+
 // Loading runs the constructors of the plug-in and of what it links. To open a pipe would wait for
 // a writer.
 Library open(const std::filesystem::path& file, const std::string& who) {
     std::error_code error;
     if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
         throw Error{who + "cannot be loaded: it is no file; name the shared object itself"};
+    if (const std::string cut = cutOff(file); !cut.empty()) throw Error{who + cut};
     const unsigned before = floatingPointMode();
     Library library{dlopen(std::filesystem::absolute(file).c_str(), RTLD_NOW | RTLD_LOCAL),
                     &dlclose};

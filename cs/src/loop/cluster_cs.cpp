@@ -4,6 +4,7 @@
 #include "cortex/core/agent.hpp"
 #include "cortex/core/error.hpp"
 #include "cortex/core/sending_checks.hpp"
+#include "cortex/core/service_threads.hpp"
 #include "cortex/core/system_findings.hpp"
 #include "cortex/core/validation.hpp"
 #include "cortex/cs/testing.hpp"
@@ -22,6 +23,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <system_error>
 
 namespace cortex::cs {
 
@@ -251,12 +253,20 @@ void ClusterCS::start() {
     refuseInHooks("start()", "clusters are started by the program");
     if (implementation_->loop)
         throw Error("cluster " + implementation_->name + " was started before");
-    try {
-        startAll();
-    } catch (...) {
+    const auto undo = [this] {
         implementation_->loop.reset();
         implementation_->endIoThreads();
         implementation_->agent.reset();
+    };
+    try {
+        startAll();
+    } catch (const std::system_error& error) {
+        undo();
+        const std::string refused = threadRefused(error);
+        if (refused.empty()) throw;
+        throw Error("cluster " + implementation_->name + ": " + refused);
+    } catch (...) {
+        undo();
         throw;
     }
 }

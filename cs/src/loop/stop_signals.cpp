@@ -34,8 +34,10 @@ sigset_t stopSignals() {
 
 }  // namespace
 
-// SIGPIPE comes to the thread that wrote, which nobody waits for. So it is passed on.
+// SIGPIPE comes to the thread that wrote, which nobody waits for. So it is passed on. A file that
+// may not grow is an error of whoever writes it.
 void blockStopSignals() {
+    if (isLeftToDefault(SIGXFSZ)) std::signal(SIGXFSZ, SIG_IGN);
     const sigset_t signals = stopSignals();
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
     StopGuard::get().begin(signals);

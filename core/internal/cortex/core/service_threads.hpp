@@ -3,6 +3,9 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
+#include <string_view>
+#include <system_error>
 
 namespace cortex {
 
@@ -20,5 +23,12 @@ private:
     std::array<char, 16> nameBefore_{};
     std::size_t stackBefore_ = 0;  // bytes
 };
+
+// Throws Error where so many more threads cannot run at once, which `what` needs: in words, while
+// nothing has begun. Libraries that fail to start one may end the process.
+void requireThreads(std::size_t number, std::string_view what);
+
+// What to tell a user of a thread that could not be started; "": the error is another one.
+std::string threadRefused(const std::system_error& error);
 
 }  // namespace cortex
