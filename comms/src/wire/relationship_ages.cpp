@@ -36,9 +36,9 @@ void writeAges(Model& sample) {
     for (const SimplexMessage& simplex : sample.simplexes) {
         for (const Relationship& each : simplex.relationships) {
             if (each.maxAge == 0) continue;
-            sample.extras.push_back({ageOfRelationship, simplex.path + ' ' + each.rule + ' ' +
-                                                            each.target + ' ' +
-                                                            toText(each.maxAge)});
+            sample.extras.push_back(
+                {ageOfRelationship,
+                 simplex.path + ' ' + each.rule + ' ' + each.target + ' ' + toText(each.maxAge)});
         }
     }
 }

@@ -112,9 +112,9 @@ void SimplexTree::add(const SystemDescription& system, const ClassRegistry* regi
         simplex.description_->every = entry.every;
         simplex.description_->phase = entry.phase;
         for (const auto& relate : entry.relates) {
-            simplex.description_->relations.push_back(
-                {relate.rule, relate.to, relate.delayed, relate.remote, relate.place, relate.type,
-                 relate.maxAge});
+            simplex.description_->relations.push_back({relate.rule, relate.to, relate.delayed,
+                                                       relate.remote, relate.place, relate.type,
+                                                       relate.maxAge});
         }
         for (const auto& setting : entry.settings) addSetting(*types_, simplex, setting, report);
     }

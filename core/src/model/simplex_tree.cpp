@@ -94,8 +94,8 @@ Simplex& SimplexTree::add(std::string_view path, std::string_view type) {
     return insert(std::make_unique<Simplex>(identity(path, type)));
 }
 
-void SimplexTree::relate(Simplex& owner, std::string_view rule, const Simplex& target,
-                         bool delayed, double maxAge) {
+void SimplexTree::relate(Simplex& owner, std::string_view rule, const Simplex& target, bool delayed,
+                         double maxAge) {
     requireNotFixed(owner.path());
     Simplex::Relation& relation = owner.description_->relations.emplace_back();
     relation.rule = rule;

@@ -109,9 +109,9 @@ private:
         checked_.report.warning(
             owner_.path(), finding::maxAge, slowest->relation->place,
             ruleText(owner_, *slowest->rule) + (isOwn ? ": maxAge=\"" : " has maxAge=\"") +
-                toText(slowest->maxAge()) + (isOwn ? "\" is raised to " : "\", which is raised to ") +
-                toText(least(*slowest)) + ": three periods of " + slowest->relation->target +
-                ", written " +
+                toText(slowest->maxAge()) +
+                (isOwn ? "\" is raised to " : "\", which is raised to ") + toText(least(*slowest)) +
+                ": three periods of " + slowest->relation->target + ", written " +
                 (every == 1 ? "each cycle" : "every " + std::to_string(every) + " cycles") +
                 " at " + toText(frequency_) + " Hz",
             "write maxAge=\"" + toText(least(*slowest)) + "\" or more, or leave it out");

@@ -138,8 +138,8 @@ private:
 
 // Blocks until a signal asks for the end, or `seconds` have passed (0: no limit), or `done` returns
 // true. The signals are SIGINT, SIGTERM, SIGPIPE and SIGHUP, the last two unless the process
-// ignores or handles them. Call blockStopSignals() before start() makes threads. From then on a file
-// that may not grow (SIGXFSZ) is an error of who writes it, and ends nobody.
+// ignores or handles them. Call blockStopSignals() before start() makes threads. From then on a
+// file that may not grow (SIGXFSZ) is an error of who writes it, and ends nobody.
 void blockStopSignals();
 bool waitForInterrupt(double seconds = 0, const std::function<bool()>& done = {});
 
