@@ -88,8 +88,11 @@ TEST_F(CortexLive, ShowsASimplexWithAllThatIsKnownOfIt) {
     EXPECT_GE(shown["age_ms"], 0);
     EXPECT_TRUE(std::ranges::count(shown["ancestors"], "Device") == 1);
     const json expected{
-        {{"rule", "demand"}, {"direction", "input"}, {"to", "/axis/demanded"}},
-        {{"rule", "observation"}, {"direction", "output"}, {"to", "/axis/observed"}}};
+        {{"rule", "demand"}, {"direction", "input"}, {"to", "/axis/demanded"}, {"max_age_s", 0.05}},
+        {{"rule", "observation"},
+         {"direction", "output"},
+         {"to", "/axis/observed"},
+         {"max_age_s", nullptr}}};
     EXPECT_EQ(shown["relationships"], expected);
     for (const json& command : shown["commands"]) {
         if (command["name"] == "startup") {

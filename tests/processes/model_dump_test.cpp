@@ -158,9 +158,8 @@ TEST_F(ModelDump, SaysThatItCouldNotBeWritten) {
     writePlant(world("/world"));
     const Outcome agent = dump("--dump-mjcf >/dev/full");
     EXPECT_EQ(agent.exit, 1);
-    EXPECT_TRUE(contains(agent.errors,
-                         "--dump-mjcf: the model could not be written: No space "
-                         "left on device"))
+    EXPECT_TRUE(
+        contains(agent.errors, "the standard output cannot be written: No space left on device"))
         << agent.errors;
 }
 
