@@ -384,7 +384,7 @@ TEST(SimplexCS, LongCommandBegunInStandbyIsCancelledByAFault) {
 
     CallResult result;
     ASSERT_TRUE(cluster.cluster->program().poll(sequence, result));
-    EXPECT_EQ(result.text(), "Cancelled: its simplex went to Fault");
+    EXPECT_EQ(result.text(), "Cancelled: its simplex went to Fault: no pressure");
 }
 
 TEST(SimplexCS, StartupThatIsOutrankedIsAnsweredSo) {

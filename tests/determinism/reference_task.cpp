@@ -152,7 +152,8 @@ void Reference::enter(int simplex, State to) {
     const State from = task.state;
     const bool faults = to == State::Fault;
     if ((from == State::Active || faults) &&
-        !leaveLong(simplex, faults ? "its simplex went to Fault" : "its simplex left Active")) {
+        !leaveLong(simplex, faults ? "its simplex went to Fault: " + task.text
+                                   : "its simplex left Active")) {
         if (to != State::Fault) {
             fault(simplex, -1, "the handler of its long command threw while it was cancelled");
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "memory_text.hpp"
 
+#include "cortex/core/printable.hpp"
 #include "cortex/core/xml_text.hpp"
 
 #include <algorithm>
@@ -171,7 +172,7 @@ std::string otherThanMemory(const std::filesystem::path& file, std::string_view 
     const std::string rest = ", and would be written over: name another file, or move it away";
     if (firstLine.starts_with(markOfThis)) {
         return file.string() + " is what the agent " +
-               std::string{firstLine.substr(markOfThis.size(), longestName)} + " remembers" + rest;
+               printable(firstLine.substr(markOfThis.size(), longestName)) + " remembers" + rest;
     }
     return file.string() +
            (firstLine.starts_with(mark) ? " is of another version of cortex-agent"

@@ -37,7 +37,7 @@ constexpr const char* wordsOf(Refusal refusal) {
         "they are no messages of RTPS",
         "a submessage is out of bounds",
         "a list of parameters is out of bounds",
-        "their sequence numbers do not follow those of their writer",
+        "their sequence numbers do not follow those of their writer, as after a loss",
         "they are fragments of what is never sent in fragments, or of too much",
         "there are too many participants",
         "they began more samples in fragments than there is room for",

@@ -116,17 +116,18 @@ bool installHandlers() {
     return true;
 }
 
-void installOnce() {
+// A stack that overflows leaves no room for the handler.
+void prepareThisThread() {
     static const bool installed = installHandlers();
     static_cast<void>(installed);
+    static const thread_local CrashStack stack;
 }
 
 }  // namespace
 
 void reportCrashesOfThisThread(const Structure& structure, const Position& position,
                                Escape& escapeFromHooks) {
-    installOnce();
-    static const thread_local CrashStack stack;
+    prepareThisThread();
     structureOfThread = &structure;
     positionOfThread = &position;
     escapeNow = &escapeFromHooks;
@@ -134,7 +135,7 @@ void reportCrashesOfThisThread(const Structure& structure, const Position& posit
 
 PhaseOfThread::PhaseOfThread(const char* what, Escape* escapeFromIt)
     : before_{phaseOfThread}, escapeBefore_{escapeNow} {
-    installOnce();
+    prepareThisThread();
     phaseOfThread = what;
     escapeNow = escapeFromIt;
 }

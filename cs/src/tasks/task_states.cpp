@@ -117,9 +117,11 @@ void TaskStates::enter(Task& task, State to, const Tick& tick) {
     SimplexCS& simplex = *task.simplex;
     TaskDetails& details = set_.detailsOf(task);
     const State from = simplex.state_;
-    const char* left = to == State::Fault ? "its simplex went to Fault" : "its simplex left Active";
+    EventText left{to == State::Fault ? "its simplex went to Fault: " : "its simplex left Active"};
+    if (to == State::Fault) left << simplex.thread_->text.view();
     if ((from == State::Active || to == State::Fault) &&
-        !set_.agent.cancelActivity(task.index, *simplex.thread_->loop, !simplex.dead_, left)) {
+        !set_.agent.cancelActivity(task.index, *simplex.thread_->loop, !simplex.dead_,
+                                   left.view())) {
         if (to != State::Fault) {
             simplex.enterFault(HookThrew,
                                "the handler of its long command threw while it was cancelled");
