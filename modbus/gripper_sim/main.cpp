@@ -32,7 +32,7 @@ int run(int argc, char** argv) {
         ->check(aPositiveNumber)
         ->check(CLI::Range(0.001, 0.084));
     app.add_option("--activation-time", settings.activationTime,
-                   "how long its activation takes in s; 1 if not given")
+                   "how long its activation takes in s; 2 if not given")
         ->type_name("S")
         ->check(aPositiveNumber)
         ->check(CLI::Range(0.01, 60.0));

@@ -26,7 +26,7 @@ struct GripperFaults {
 
 struct GripperSettings {
     std::optional<double> object;  // m
-    double activationTime = 1;     // s
+    double activationTime = 2;     // s
 };
 
 // The gripper as its registers show it.

@@ -109,6 +109,9 @@ TEST_F(EarlyEndOfAProcess, ByACrashOutsideOfHooksNamesThePluginAndThePhase) {
                      "/lib/plugins/ends-early.so; the process ends"));
     endOfOneThat("crash populate");
     EXPECT_TRUE(says("cortex: SIGSEGV in populate() of /stuck (NeverReturns) (plug-in "));
+    endOfOneThat("deeper populate");
+    EXPECT_TRUE(says("cortex: SIGSEGV in populate() of /stuck (NeverReturns) (plug-in "))
+        << "no stack is left for the report";
     endOfOneThat("crash thread");
     EXPECT_TRUE(says("cortex: SIGSEGV in a thread of plug-in "));
 }

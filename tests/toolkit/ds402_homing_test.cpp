@@ -16,12 +16,12 @@ using Arguments = Rig::Arguments;
 class Homing : public testing::Test {
 protected:
     // `method` of both axes; 17: the edge of the negative limit switch, at -0.05.
-    void begin(std::int64_t method, bool jogs = false, double speed = 0.5) {
+    void begin(std::int64_t method, bool jogs = false, double speed = 0.5, double offset = 0.2) {
         plant_.emplace(PlantOptions{.homingNeeded = true, .jogs = jogs});
         plant().boot();
         EXPECT_TRUE(plant()
                         .ask("set", {{"homingMethod", std::vector<std::int64_t>{method, 37}},
-                                     {"homeOffset", std::vector<double>{0.2, 0.0}},
+                                     {"homeOffset", std::vector<double>{offset, 0.0}},
                                      {"homingSpeed", std::vector<double>{speed, 0.5}}})
                         .done());
         plant().startUp();
@@ -244,6 +244,15 @@ TEST_F(Homing, IsRejectedAtSpeedsThatItsAxisMayNotHave) {
         << why;
     begin(37, false, 1000);
     EXPECT_TRUE(home(1).done()) << "it moves nothing";
+}
+
+TEST_F(Homing, IsRejectedToAPositionThatItsDriveCannotCount) {
+    begin(37, false, 0.5, -21475);
+    EXPECT_EQ(home(1).why,
+              "axis 1: homeOffset is -21475, at most 21474.8, as its drive counts "
+              "positions in 32 bits");
+    begin(37, false, 0.5, 21474);
+    EXPECT_TRUE(home(1).done());
 }
 
 TEST_F(Homing, IsRejectedForAnAxisThatIsNotEnabled) {

@@ -23,6 +23,24 @@ std::vector<std::uint32_t> notGoodIn(const Image& image) {
     return simplexes;
 }
 
+// Our own active simplexes.
+std::vector<std::uint32_t> activeIn(const Image& image) {
+    std::vector<std::uint32_t> simplexes;
+    for (std::uint32_t i = 0; i < image.structure().simplexes.size(); ++i) {
+        const SimplexInfo& info = image.structure().simplexes[i];
+        if (!info.remote && info.layout->type->isA("Active")) simplexes.push_back(i);
+    }
+    return simplexes;
+}
+
+const std::string& pathOf(const Image& image, std::uint32_t simplex) {
+    return image.structure().simplexes[simplex].path;
+}
+
+bool isIn(State state, const Image& image, std::uint32_t simplex) {
+    return image.get<std::int64_t>(pathOf(image, simplex), "state") == static_cast<int>(state);
+}
+
 constexpr std::string_view notLinked = "is not linked: ";  // as the links of an agent say it
 
 }  // namespace
@@ -130,11 +148,9 @@ void StartUp::tellOverdue() {
 }
 
 void StartUp::noteActive(const Image& image) {
-    for (const SimplexInfo& info : image.structure().simplexes) {
-        if (!info.remote && info.layout->type->isA("Active") &&
-            image.get<std::int64_t>(info.path, "state") == static_cast<int>(State::Active)) {
-            started_.insert(info.path);
-        }
+    if (!active_) active_ = activeIn(image);
+    for (const std::uint32_t simplex : *active_) {
+        if (isIn(State::Active, image, simplex)) started_.insert(simplex);
     }
 }
 
@@ -149,10 +165,9 @@ bool StartUp::mayFollowNow(const Image& image) {
 
 // Whoever stopped something meanwhile does not want it to be started again.
 std::string StartUp::shutDownSince(const Image& image) const {
-    const auto found = std::ranges::find_if(started_, [&](const std::string& path) {
-        return image.get<std::int64_t>(path, "state") == static_cast<int>(State::Standby);
-    });
-    return found == started_.end() ? "" : *found;
+    const auto found = std::ranges::find_if(
+        started_, [&](std::uint32_t simplex) { return isIn(State::Standby, image, simplex); });
+    return found == started_.end() ? "" : pathOf(image, *found);
 }
 
 std::string StartUp::endText() const {
@@ -183,10 +198,9 @@ void NotStarted::tell() {
     const Image image = cluster_.image();
     std::string names;
     std::size_t resting = 0;
-    for (const SimplexInfo& info : image.structure().simplexes) {
-        if (info.remote || !info.layout->type->isA("Active")) continue;
-        if (image.get<std::int64_t>(info.path, "state") != static_cast<int>(State::Standby)) return;
-        if (resting++ < mostNamed) names += (names.empty() ? "" : ", ") + info.path;
+    for (const std::uint32_t simplex : activeIn(image)) {
+        if (!isIn(State::Standby, image, simplex)) return;
+        if (resting++ < mostNamed) names += (names.empty() ? "" : ", ") + pathOf(image, simplex);
     }
     if (resting == 0) return;
     if (resting > mostNamed) names += " and " + std::to_string(resting - mostNamed) + " more";

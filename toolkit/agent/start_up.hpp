@@ -51,9 +51,10 @@ private:
     std::optional<Clock::time_point> began_;  // the first look
     std::uint64_t sent_ = 0;
     bool answerIsDue_ = false, told_ = false, complete_ = false, over_ = false;
-    MissingLinks missing_;                // when the command was sent last
-    std::set<std::string> started_;       // what was Active since
-    std::string notFollowed_;             // what it was answered
+    MissingLinks missing_;                              // when the command was sent last
+    std::optional<std::vector<std::uint32_t>> active_;  // of our simplexes; they never change
+    std::set<std::uint32_t> started_;                   // what was Active since
+    std::string notFollowed_;                           // what it was answered
     std::vector<std::uint32_t> notGood_;  // of our simplexes, when some did not follow
     Clock::time_point nextTry_;
     std::shared_ptr<Hints> hints_;

@@ -9,6 +9,9 @@
 #include "model/validation_checks.hpp"
 #include "tables/lookup.hpp"
 
+#include <algorithm>
+#include <string>
+
 namespace cortex {
 namespace {
 
@@ -76,6 +79,17 @@ const char* ruleOf(const DataItem& item, std::string text) {
     return special && item.kind == Kind::Float ? finding::settingFinite : finding::settingKind;
 }
 
+// The value that is meant most likely: "0,3" is 0.3, "1, 2" are two numbers.
+std::string mendedText(const DataItem& item, const std::string& text) {
+    if (!item.labels.empty()) return withNearestLabels(item, text);
+    for (const char instead : {'.', ' '}) {
+        std::string other = text, why;
+        std::ranges::replace(other, ',', instead);
+        if (const auto value = parseItemValue(item, other, why)) return valueText(*value);
+    }
+    return valueText(item.initial);
+}
+
 void addSetting(const TypeModel& types, Simplex& simplex, const SystemDescription::Setting& setting,
                 Report& report) {
     const DataItem* item = simplex.type().findData(setting.data);
@@ -89,8 +103,7 @@ void addSetting(const TypeModel& types, Simplex& simplex, const SystemDescriptio
         simplex.set(setting.data, *value, setting.place);
         return;
     }
-    const std::string mended =
-        item->labels.empty() ? valueText(item->initial) : withNearestLabels(*item, setting.value);
+    const std::string mended = mendedText(*item, setting.value);
     report.error(simplex.path(), ruleOf(*item, setting.value), setting.place,
                  "item '" + setting.data + "' is " + shapeOf(*item) + ": " + why,
                  mended.empty() && !item->labels.empty()

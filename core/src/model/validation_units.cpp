@@ -80,11 +80,17 @@ void Units::checkPairs(const Rule& rule, const std::string& otherRule) const {
     for (std::size_t n = 0; n < own.size(); ++n) {
         const std::size_t place = others.size() == 1 ? 0 : n;
         if (place >= others.size()) return;  // of unequal numbers others tell
-        for (const auto& [item, other] : differences(own[n], others[place])) {
-            checked_.report.error(owner_.path(), finding::pairUnit, own[n].relation->place,
-                                  text(own[n], *item) + ", its pair " + text(others[place], *other),
-                                  "relate both in the same order, or give their types one unit");
-        }
+        const std::vector<DifferentUnits> found = differences(own[n], others[place]);
+        if (found.empty()) continue;
+        const auto& [item, other] = found.front();
+        std::string more;
+        for (std::size_t i = 1; i < found.size(); ++i)
+            more += (i == 1 ? "; their units of '" : "', '") + found[i].first->name;
+        if (!more.empty()) more += "' differ, too";
+        checked_.report.error(
+            owner_.path(), finding::pairUnit, own[n].relation->place,
+            text(own[n], *item) + ", its pair " + text(others[place], *other) + more,
+            "relate both in the same order, or give their types one unit");
     }
 }
 

@@ -92,15 +92,6 @@ std::string howItEnded(const Ended& ended) {
     return "ended with exit code " + std::to_string(WEXITSTATUS(ended.status));
 }
 
-void append(Model& model, const Report& found) {
-    for (const Finding& each : found.findings) {
-        const bool isKnown = std::ranges::any_of(model.report.findings, [&](const Finding& known) {
-            return known.rule == each.rule && known.text() == each.text();
-        });
-        if (!isKnown) model.report.add(each);
-    }
-}
-
 }  // namespace
 
 bool checkStart(Model& model, const Paths& files, const Paths& plugins) {
@@ -128,7 +119,8 @@ bool checkStart(Model& model, const Paths& files, const Paths& plugins) {
     }
     const Ended ended = run(words);
     try {
-        append(model, findingsOf(Json::parse(ended.output).at("findings")));
+        // What the model alone tells stands in both, and is told once by joinReports().
+        model.report.append(findingsOf(Json::parse(ended.output).at("findings")));
         return true;
     } catch (const Json::exception&) {
         model.report.error("", finding::startRefused, place,

@@ -87,7 +87,7 @@ void printValid(const Checked& checked) {
                       ? plural(simplexes.size(), "simplex") + ", " + std::to_string(active) +
                             " active"
                       : plural(model.types().types().size(), "type") + ", " + plural(rules, "rule"))
-              << lesserText(model.report) << '\n';
+              << lesserText(joinReports(std::array{&model})) << '\n';
 }
 
 void printSummary(const Report& report) {

@@ -167,7 +167,8 @@ public:
         std::cout << ",restarted" << std::endl;
     }
     void line(const Sighting& line) {
-        const std::string time = common::utcText(line.moment);
+        // A cycle may last less than a millisecond.
+        const std::string time = common::utcText(line.moment, options_.rate == 0 ? 6 : 3);
         const std::vector<Reading>& readings = line.readings;
         if (options_.csv) return csv(time, readings, line.restarted);
         if (options_.json) return json(time, readings, line.restarted);

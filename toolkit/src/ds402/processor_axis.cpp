@@ -35,6 +35,7 @@ Ds402ProcessorAxis::Ds402ProcessorAxis(int number, const Links& links, const Ds4
     velocity_ = drive.data<double>("velocity");
     homed_ = drive.data<bool>("homed");
     homingNeeded_ = drive.data<bool>("homingNeeded");
+    countsPerUnit_ = drive.data<double>("countsPerUnit");
     demandPosition_ = links.demand.data<double>("position");
     demandVelocity_ = links.demand.data<double>("velocity");
     demandAcceleration_ = links.demand.data<double>("acceleration");

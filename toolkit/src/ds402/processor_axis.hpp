@@ -104,6 +104,7 @@ private:
     bool awaitsHoming() const CORTEX_REALTIME;
     bool isOutOfReach(std::int64_t mode) const CORTEX_REALTIME;
     bool mayHomeAtItsSpeeds(EventText& why) const CORTEX_REALTIME;
+    bool mayHomeToItsOffset(EventText& why) const CORTEX_REALTIME;
     EventText outOfReach() const CORTEX_REALTIME;  // in words, with the way out
     std::int64_t wishedMode() const CORTEX_REALTIME;
     AxisTarget demand() const CORTEX_REALTIME;
@@ -124,7 +125,7 @@ private:
     std::string demandPath_;
     AxisLimits limits_;  // of the demand
     Data<const std::int64_t> statusWord_, driveState_, modeDisplay_, errorCode_;
-    Data<const double> position_, velocity_;
+    Data<const double> position_, velocity_, countsPerUnit_;
     Data<const bool> homed_, homingNeeded_;
     Data<const double> demandPosition_, demandVelocity_, demandAcceleration_, demandEffort_;
     Data<std::int64_t> controlWord_, mode_, homingMethod_, quickStopOption_, faultReactionOption_;

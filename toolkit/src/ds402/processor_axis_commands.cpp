@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 namespace cortex::toolkit {
 
@@ -70,7 +72,7 @@ bool Ds402ProcessorAxis::mayHome(EventText& why) const {
                    << " is none of CiA 402; the drives of CorteX have 1, 2, 17, 18, 33, 34, 35, 37";
         return false;
     }
-    if (!mayHomeAtItsSpeeds(why)) return false;
+    if (!mayHomeAtItsSpeeds(why) || !mayHomeToItsOffset(why)) return false;
     if (!lead_.hasArrived() || state_ != State::OperationEnabled) {
         why = inState() << ": enable it first";
         return false;
@@ -93,6 +95,16 @@ bool Ds402ProcessorAxis::mayHomeAtItsSpeeds(EventText& why) const {
     if (std::max(speed, creep) <= most) return true;
     why = name() << ": homingSpeed is " << speed << " and homingCreep " << creep << ", at most "
                  << most << ", the limit of its demand";
+    return false;
+}
+
+// A drive has 32 bits for a position, its sign included.
+bool Ds402ProcessorAxis::mayHomeToItsOffset(EventText& why) const {
+    const double most = std::numeric_limits<std::int32_t>::max() / countsPerUnit_;
+    const double offset = items_.homeOffset[place()];
+    if (std::abs(offset) <= most) return true;
+    why = name() << ": homeOffset is " << offset << ", at most " << most
+                 << ", as its drive counts positions in 32 bits";
     return false;
 }
 
