@@ -85,7 +85,7 @@ TEST_F(PlacesTest, OnlyAParticipantItselfAnnouncesItFromWhereItIs) {
                     .prefix = 3,
                     .sender = 3}),
               Refusal::None)
-        << "behind another ofThePeer, from the first time on";
+        << "behind another address, from the first time on";
     EXPECT_EQ(said({.parameters = here + locator(0x0a000009),
                     .from = 0xc0000201,
                     .prefix = 3,
