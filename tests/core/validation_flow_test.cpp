@@ -380,7 +380,7 @@ TEST(Validation, WantsOneUnitForItemsOfOneNameInAPair) {
     EXPECT_EQ(first->path, "/m");
     EXPECT_EQ(first->message,
               "/slide2 (rule 'moved') has 'position' in mm, its pair /lift (rule 'seen') has "
-              "'position' in m; their units of 'velocity' differ, too");
+              "'position' in m; their units of 'turn' differ, too");
     EXPECT_EQ(first->place.line, 6);
 }
 

@@ -205,6 +205,9 @@ INSTANTIATE_TEST_SUITE_P(
         SettingCase{"mode", "2", "setting-range", "<set data=\"mode\" value=\"0\"/>"},
         SettingCase{"direction", "0 0", "setting-length", "value=\"0 0 1\"/>"},
         SettingCase{"direction", "0 0 x", "setting-kind", "value=\"0 0 1\"/>"},
+        SettingCase{"position", "0,5", "setting-kind", "value=\"0.5\"/>"},
+        SettingCase{"direction", "0,3 0 0,26", "setting-kind", "value=\"0.3 0 0.26\"/>"},
+        SettingCase{"direction", "0,0,1", "setting-length", "value=\"0 0 1\"/>"},
         SettingCase{"direction", "0 2 -2", "setting-range", "value=\"0 1 -1\"/>"},
         SettingCase{"note", "nine octs", "setting-length", "value=\"nine oct\"/>"}));
 
