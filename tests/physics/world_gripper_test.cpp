@@ -97,6 +97,16 @@ TEST_F(AGripper, HoldsOnWhileItsControllerIsAtRest) {
     EXPECT_NEAR(std::abs(effort()), 60, 1e-6);
 }
 
+TEST_F(AGripper, IsSaidToHoldWhatItHoldsByItsBrake) {
+    ASSERT_TRUE(grip(40).done());
+    rig.send("/world", "shutdown");
+    for (int cycle = 0; cycle < 500; ++cycle) {
+        rig.step(1);
+        ASSERT_EQ(rig.get<std::int64_t>("/grip", "object"), stoppedClosing) << cycle;
+    }
+    EXPECT_EQ(rig.told(), "");
+}
+
 TEST(AGripperAndABox, ThatIsSlipperyStaysOnTheTable) {
     Entries entries = liftPlant();
     at(entries, "/box").settings.push_back({"friction", "0.02", {}});

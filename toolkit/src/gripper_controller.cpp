@@ -109,8 +109,10 @@ void GripperController::stop() {
     profile_ = mechanics::planVelocity(now, 0, limits(0).motion())
                    .value_or(mechanics::Profile::standing({now.position, 0, 0}));
     wish_.width = profile_.end().position;
-    time_ = rested_ = 0;
+    time_ = 0;
     phase_ = Phase::Moves;
+    if (status_.bound() && !follows(0)) return;  // the demand is led back to it, cycle by cycle
+    rested_ = 0;
     if (object_ != Lost) tell(Moving);
 }
 
@@ -193,7 +195,8 @@ bool GripperController::hasForce() const {
 
 void GripperController::tellAsStatus(double seconds) {
     demandEffort_ = force_.get();
-    rested_ = hasArrived() && status_ != Moving ? rested_ + seconds : 0;
+    const bool mayRest = hasArrived() || !follows(0);
+    rested_ = mayRest && status_ != Moving ? rested_ + seconds : 0;
     const bool isKnown = follows(0) || isBraked(0);
     if (isKnown || object_ != Lost) tell(rested_ >= statusTime ? status_.get() : Moving);
 }
