@@ -140,6 +140,25 @@ TEST_F(RetainedValues, BelongToTheProcessThatKeepsThem) {
     EXPECT_TRUE(contains(retainedText(), "data=\"gain\" value=\"5\"")) << retainedText();
 }
 
+TEST_F(RetainedValues, OfTheFirstStartGoOnInASpareThatWaitedForItsEnd) {
+    AgentProcess first{folder, system, options()};
+    ASSERT_TRUE(station.waitFor([&] { return retainedCount() > 0; })) << first.output();
+    const ModelFolder other;
+    AgentProcess spare{other, system, options({"--wait"})};
+    ASSERT_TRUE(spare.prints("this one waits until it has ended\n"));
+    ASSERT_EQ(set({"gain=2.5"}).exit, 0);
+    EXPECT_EQ(first.endInOrder(), 0);
+    const std::int64_t last = retainedCount();
+
+    ASSERT_TRUE(spare.prints("/counter.count 0 -> " + std::to_string(last) + "\n"))
+        << spare.output();
+    ASSERT_TRUE(isSet("gain", 2.5)) << spare.output();
+    ASSERT_TRUE(station.waitFor([&] { return station.number(counter, "count") > last; }));
+    EXPECT_FALSE(contains(spare.output(), "stands still")) << spare.output();
+    EXPECT_EQ(spare.endInOrder(), 0);
+    EXPECT_GT(retainedCount(), last);
+}
+
 TEST_F(RetainedValues, KeepTheirLastGoodValueWhereTheNewOneIsNoNumber) {
     AgentProcess agent{folder, system, options()};
     const std::string good = "data=\"share\" value=\"0.25\"";

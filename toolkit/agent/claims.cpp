@@ -3,6 +3,7 @@
 
 #include "cortex/cs/cluster_cs.hpp"
 
+#include <chrono>
 #include <iostream>
 
 #include <sys/stat.h>
@@ -26,20 +27,30 @@ std::string keyOf(const std::filesystem::path& file) {
 
 void Claims::takeFile(const std::filesystem::path& retained) {
     if (line_.noDevices) return;
-    files_.push_back({keyOf(retained), "the retained values in " + retained.string(),
-                      "name another file (--retain)"});
+    file_ = {keyOf(retained), "the retained values in " + retained.string(),
+             "name another file (--retain)"};
     if (line_.wait && !line_.offline)
-        claims_.take(files_.back().key);
+        claims_.take(file_->key);
     else
-        take(files_.back());
+        take(*file_);
 }
 
 void Claims::takeAll(const std::vector<TalkedTo>& devices) {
     if (line_.noDevices) return;
-    for (const Thing& each : files_) take(each);
+    if (!patience_) patience_ = std::chrono::steady_clock::now() + std::chrono::seconds{1};
+    if (file_) take(*file_);
     for (const TalkedTo& each : devices)
         take(
             {"device " + each.name, each.path + " at " + each.name, "leave " + each.path + " out"});
+}
+
+// Who ends in order writes its last values after it has left the network.
+bool Claims::comesFree(const Thing& thing) {
+    const auto isFree = [&] { return claims_.take(thing.key).empty(); };
+    const std::chrono::duration<double> left = *patience_ - std::chrono::steady_clock::now();
+    if (left.count() > 0 && cs::waitForInterrupt(left.count(), isFree))
+        throw Taken("this one was stopped before it began");
+    return isFree();
 }
 
 void Claims::take(const Thing& thing) {
@@ -49,6 +60,7 @@ void Claims::take(const Thing& thing) {
     const std::string remedies = "; end that one, " + thing.remedy + ", or " + orTry;
     if (!line_.wait) throw Taken(what + remedies);
     if (!line_.offline) {
+        if (comesFree(thing)) return;
         std::cerr << what << ", and stands still or is silent: this one goes on" << std::endl;
         return;
     }

@@ -7,7 +7,9 @@
 #include "host_claims.hpp"
 #include "options.hpp"
 
+#include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +23,7 @@ public:
 
 // What an agent has to itself on this host: the file of its retained values, and its devices.
 // With --no-devices it has none of them. Throws Taken. With --wait it waits, or goes on: on a
-// network that knows who has ended, whoever has it stands still.
+// network that knows who has ended, whoever still has it a second later stands still.
 class Claims {
 public:
     explicit Claims(const CommandLine& line) : line_{line} {}
@@ -36,10 +38,12 @@ private:
         std::string key, text, remedy;
     };
     void take(const Thing& thing);
+    bool comesFree(const Thing& thing);
 
     const CommandLine& line_;
     HostClaims claims_;
-    std::vector<Thing> files_;
+    std::optional<Thing> file_;
+    std::optional<std::chrono::steady_clock::time_point> patience_;  // ends then
 };
 
 }  // namespace cortex::toolkit

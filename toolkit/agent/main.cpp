@@ -50,6 +50,9 @@ enum ExitCode {
     HooksBroke = 6
 };
 
+// The first start of our name has written its last values while this one waited.
+struct ValuesAreOld {};
+
 // Retained values outrank those of --settings.
 void restoreRetained(const CommandLine& line, SimplexTree& tree, RetainedFile& retained,
                      Claims& claims) {
@@ -226,7 +229,10 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
     Running running{line, settings, cluster, hookCheck, retained, memory.get()};
     running.network = setUp(cluster, line, settings, hookCheck);
     const std::vector<TalkedTo> devices = devicesOf(tree);
-    cluster.beforeFirstCycle([&] { claims.takeAll(devices); });
+    cluster.beforeFirstCycle([&] {
+        claims.takeAll(devices);
+        if (retains && retained.hasChanged()) throw ValuesAreOld{};
+    });
     const auto finish = [](RetainedFile* each) { each->finish(); };
     const std::unique_ptr<RetainedFile, decltype(finish)> keeping{&retained, finish};
     if (line.startup)
@@ -241,6 +247,25 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
     std::cerr << "another start of " << settings.name << " is there; this one ends" << std::endl;
     cluster.stop();
     return Second;
+}
+
+int runOnce(const CommandLine& line, HookCheck& hookCheck, Claims& claims) {
+    ClassRegistry registry;
+    addClasses(registry);
+    RetainedFile retained{retainFile(line)};
+    const OwnedTree tree = readSystem(
+        line, registry, [&](SimplexTree& each) { restoreRetained(line, each, retained, claims); });
+    try {
+        return runCluster(line, registry, *tree, retained, hookCheck, claims);
+    } catch (const comms::SecondStart& error) {
+        std::cerr
+            << error.what()
+            << (line.wait
+                    ? "\n"
+                    : "; end that one, give one of them another name (<cluster name=…>), or wait "
+                      "until it has ended (--wait)\n");
+        return Second;
+    }
 }
 
 int run(int argc, char** argv) {
@@ -259,23 +284,14 @@ int run(int argc, char** argv) {
     }
     HookCheck hookCheck{line->checkHooks, argv};
     cs::blockStopSignals();
-    ClassRegistry registry;
-    addClasses(registry);
-    RetainedFile retained{retainFile(*line)};
     Claims claims{*line};
-    const OwnedTree tree = readSystem(*line, registry, [&](SimplexTree& each) {
-        restoreRetained(*line, each, retained, claims);
-    });
-    try {
-        return runCluster(*line, registry, *tree, retained, hookCheck, claims);
-    } catch (const comms::SecondStart& error) {
-        std::cerr
-            << error.what()
-            << (line->wait
-                    ? "\n"
-                    : "; end that one, give one of them another name (<cluster name=…>), or wait "
-                      "until it has ended (--wait)\n");
-        return Second;
+    for (;;) {
+        try {
+            return runOnce(*line, hookCheck, claims);
+        } catch (const ValuesAreOld&) {
+            std::cout << retainFile(*line).string()
+                      << " has changed while this one waited: it is read again" << std::endl;
+        }
     }
 }
 

@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <iostream>
+#include <iterator>
 
 namespace cortex::toolkit {
 namespace {
@@ -42,6 +44,11 @@ fs::path freeName(const std::string& name) {
     return free;
 }
 
+std::string contentOf(const fs::path& file) {
+    std::ifstream stream{file, std::ios::binary};
+    return {std::istreambuf_iterator<char>{stream}, {}};
+}
+
 bool isRetained(const ItemLayout& each) { return each.item->retain; }
 
 }  // namespace
@@ -61,6 +68,7 @@ std::string RetainedFile::restore(SimplexTree& tree, bool keeps) {
     if (const std::string other = otherThanValues(file_); !other.empty()) {
         throw Error("--retain: " + other);
     }
+    restored_ = contentOf(file_);
     Report report;
     const std::vector<StoredValue> values = readStored(file_, retainedItems, tree, report);
     std::string lines = applyStored(values);
@@ -76,12 +84,15 @@ std::string RetainedFile::restore(SimplexTree& tree, bool keeps) {
     }
     const fs::path broken = freeName(file_.string() + ".broken");
     fs::rename(file_, broken, none);
+    restored_ = contentOf(file_);
     std::cerr << report.text() << file_.string() << ": has what cannot be restored; "
               << (none ? "it cannot be set aside: " + none.message()
                        : "it was set aside as " + broken.string())
               << ", and " << values.size() << " good values of it count" << std::endl;
     return lines;
 }
+
+bool RetainedFile::hasChanged() const { return contentOf(file_) != restored_; }
 
 void RetainedFile::keep(cs::ClusterCS& cluster) {
     static constexpr Repeating::Pause interval{1000};

@@ -31,6 +31,8 @@ public:
     // aside as FILE.broken. Throws Error where there is something that is no regular file, or a
     // model.
     std::string restore(SimplexTree& tree, bool keeps);
+    // Another process has written it since then.
+    bool hasChanged() const;
     void keep(cs::ClusterCS& cluster);
     void finish();  // the last values, of the last cycle
 
@@ -41,7 +43,7 @@ private:
     std::filesystem::path file_;
     cs::ClusterCS* cluster_ = nullptr;
     std::map<std::string, std::string> good_;  // path.item: the last value that may be restored
-    std::string written_;
+    std::string restored_, written_;           // the file's text
     WriteTrouble trouble_;
     Repeating writing_;
 };
