@@ -17,9 +17,11 @@ TEST(AgentWithAFileLimit, GoesOnAndSaysWhatIsNotWritten) {
                           "/examples/jog_axis/jog_axis.xml --offline --startup --seconds 0.3 ";
     for (const auto& [option, told] : {std::pair{"--memory m", "is not written: m.new: "},
                                        std::pair{"--log l", "cannot write the log file l"}}) {
-        const Outcome ended =
-            runProgram("sh", {"-c", "exec prlimit --fsize=100 " + agent + option + " 2>&1 | cat"},
-                       {}, folder.path().string());
+        const Outcome ended = runProgram(
+            "bash",
+            {"-c", "set -o pipefail; prlimit --fsize=100 " + agent + option + " 2>&1 | cat"}, {},
+            folder.path().string());
+        EXPECT_EQ(ended.exit, 0) << ended.output;
         EXPECT_TRUE(contains(ended.output, told)) << ended.output;
         EXPECT_TRUE(contains(ended.output, "cycles in")) << ended.output;
     }
