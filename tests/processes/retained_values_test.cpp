@@ -4,8 +4,10 @@
 #include "comms/inbox.hpp"
 #include "processes/station.hpp"
 
+#include <csignal>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <regex>
 #include <string>
 
@@ -15,6 +17,8 @@
 
 namespace cortex::test {
 namespace {
+
+using Words = std::vector<std::string>;
 
 const std::string counter = "/counter";
 
@@ -44,6 +48,10 @@ protected:
         std::smatch found;
         const std::regex value{"data=\"count\" value=\"([0-9]+)\""};
         return std::regex_search(text, found, value) ? std::stoll(found[1]) : -1;
+    }
+    bool countsBy(std::int64_t cycles) {
+        const std::int64_t before = retainedCount();
+        return station.waitFor([&] { return retainedCount() >= before + cycles; });
     }
     bool isSet(const std::string& item, double value) {
         return station.waitFor([&] { return station.real(counter, item) == value; });
@@ -159,6 +167,45 @@ TEST_F(RetainedValues, OfTheFirstStartGoOnInASpareThatWaitedForItsEnd) {
     EXPECT_GT(retainedCount(), last);
 }
 
+// A spare takes over from one that stands still and has not yet written what was set last.
+class RetainedValuesOfTwo : public RetainedValues {
+protected:
+    void takeOver() {
+        ASSERT_TRUE(station.waitFor([&] { return retainedCount() > 0; })) << first.output();
+        spare.emplace(other, system, options({"--wait"}));
+        ASSERT_TRUE(spare->prints("this one waits until it has ended\n"));
+        ASSERT_TRUE(countsBy(200)) << "long after the spare has spoken" << first.output();
+        ASSERT_EQ(set({"gain=2"}).exit, 0);
+        kill(first.pid(), SIGSTOP);
+        ASSERT_TRUE(spare->prints("100 Hz as /plant")) << spare->output();
+        ASSERT_TRUE(station.waitFor([] { return set({"gain=3"}).exit == 0; })) << spare->output();
+        ASSERT_TRUE(countsBy(500)) << "it has taken over for good" << spare->output();
+        kill(first.pid(), SIGCONT);
+        ASSERT_TRUE(first.prints("took over while this one stood still")) << first.output();
+    }
+    bool keepsGain(const char* value) const {
+        return contains(retainedText(), "data=\"gain\" value=\"" + std::string{value} + "\"");
+    }
+
+    const ModelFolder other;
+    AgentProcess first{folder, system, options({"--wait"})};
+    std::optional<AgentProcess> spare;
+};
+
+TEST_F(RetainedValuesOfTwo, AreThoseOfTheSpareThatTookOverAlsoWhenTheFirstIsBack) {
+    takeOver();
+
+    ASSERT_TRUE(countsBy(200));
+    EXPECT_TRUE(keepsGain("3")) << retainedText();
+
+    EXPECT_EQ(spare->endInOrder(), 0) << spare->output();
+    ASSERT_TRUE(first.prints("it is read again\n")) << first.output();
+    EXPECT_TRUE(first.prints("/counter.gain 1 -> 3 Hz\n")) << first.output();
+    EXPECT_TRUE(isSet("gain", 3)) << first.output();
+    EXPECT_EQ(first.endInOrder(), 0);
+    EXPECT_TRUE(keepsGain("3")) << retainedText();
+}
+
 TEST_F(RetainedValues, KeepTheirLastGoodValueWhereTheNewOneIsNoNumber) {
     AgentProcess agent{folder, system, options()};
     const std::string good = "data=\"share\" value=\"0.25\"";
@@ -227,7 +274,6 @@ TEST_F(RetainedValues, ReplaceNoModelAndNoFileOfSettings) {
     const std::string other =
         folder.write("other.xml", "<system name='other'>\n</system>\n").string();
     const std::string types = (folder.path() / "types.xml").string();
-    using Words = std::vector<std::string>;
     for (const auto& [words, file, told] :
          {std::tuple{Words{"--retain", system.string()}, system.string(),
                      "it is read by this agent"},

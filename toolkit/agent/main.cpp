@@ -50,7 +50,7 @@ enum ExitCode {
     HooksBroke = 6
 };
 
-// The first start of our name has written its last values while this one waited.
+// Another start of our name has written its values while this one waited or was away.
 struct ValuesAreOld {};
 
 // Retained values outrank those of --settings.
@@ -159,6 +159,7 @@ struct Running {
     cs::ClusterCS& cluster;
     HookCheck& hookCheck;
     RetainedFile& retained;
+    bool retains = false;
     MemoryFile* memory = nullptr;                  // null: the memory has no file
     const comms::DdsInterface* network = nullptr;  // null: offline
     std::optional<StartUp> startUp = {};           // or the next
@@ -178,6 +179,14 @@ const comms::DdsInterface* setUp(cs::ClusterCS& cluster, const CommandLine& line
                         : &cluster.addInterface<comms::DdsInterface>(networkOptions(line));
 }
 
+// Another start has ended, which was there meanwhile and left its values.
+[[noreturn]] void beginAnew(Running& running) {
+    running.retained.giveWay(true);
+    running.cluster.stop();
+    if (running.memory != nullptr) running.memory->finish();
+    throw ValuesAreOld{};
+}
+
 // Until its end. False: another start of it is there, to which this one leaves everything.
 bool runToEnd(Running& running) {
     const auto isOver = countdown(running.line.seconds, running.startUp);
@@ -186,13 +195,16 @@ bool runToEnd(Running& running) {
         const bool isSecond = running.isSecond();
         running.hookCheck.look();
         if (running.memory != nullptr) running.memory->giveWay(isSecond);
+        running.retained.giveWay(isSecond);
         if (!running.line.wait && isSecond) return true;
         const auto turn = giveWay.look(isSecond);
+        const bool isBack = turn == GiveWay::Turn::OursAgain;
+        if (isBack && running.retains && running.retained.hasChanged()) beginAnew(running);
         const bool isOurs = turn != GiveWay::Turn::Theirs;
         if (!running.startUp) {
             if (isOurs) running.notStarted->look();
         } else {
-            if (turn == GiveWay::Turn::OursAgain) running.startUp->again();
+            if (isBack) running.startUp->again();
             if (isOurs) running.startUp->look();
         }
         return isOver();
@@ -226,7 +238,7 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
     cs::ClusterCS cluster{settings.name, settings.options};
     cluster.addSimplexTree(tree);
     cluster.useClasses(registry);
-    Running running{line, settings, cluster, hookCheck, retained, memory.get()};
+    Running running{line, settings, cluster, hookCheck, retained, retains, memory.get()};
     running.network = setUp(cluster, line, settings, hookCheck);
     const std::vector<TalkedTo> devices = devicesOf(tree);
     cluster.beforeFirstCycle([&] {

@@ -10,14 +10,17 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <utility>
 
 namespace cortex::toolkit {
 namespace {
 
 namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
 
 // A model is not set aside as a file of values with errors in it. "" or what the file is.
 std::string otherThanValues(const fs::path& file) {
@@ -68,7 +71,7 @@ std::string RetainedFile::restore(SimplexTree& tree, bool keeps) {
     if (const std::string other = otherThanValues(file_); !other.empty()) {
         throw Error("--retain: " + other);
     }
-    restored_ = contentOf(file_);
+    known_ = contentOf(file_);
     Report report;
     const std::vector<StoredValue> values = readStored(file_, retainedItems, tree, report);
     std::string lines = applyStored(values);
@@ -84,7 +87,7 @@ std::string RetainedFile::restore(SimplexTree& tree, bool keeps) {
     }
     const fs::path broken = freeName(file_.string() + ".broken");
     fs::rename(file_, broken, none);
-    restored_ = contentOf(file_);
+    known_ = contentOf(file_);
     std::cerr << report.text() << file_.string() << ": has what cannot be restored; "
               << (none ? "it cannot be set aside: " + none.message()
                        : "it was set aside as " + broken.string())
@@ -92,13 +95,15 @@ std::string RetainedFile::restore(SimplexTree& tree, bool keeps) {
     return lines;
 }
 
-bool RetainedFile::hasChanged() const { return contentOf(file_) != restored_; }
+bool RetainedFile::hasChanged() const { return contentOf(file_) != known_; }
 
 void RetainedFile::keep(cs::ClusterCS& cluster) {
     static constexpr Repeating::Pause interval{1000};
     cluster_ = &cluster;
-    writing_.start("cortex-retain", interval, [this] {
-        write();
+    // After a standstill another start may have taken over: the network says so within a second.
+    writing_.start("cortex-retain", interval, [this, last = Clock::now()]() mutable {
+        const Clock::time_point before = std::exchange(last, Clock::now());
+        if (last - before < 2 * interval) write();
         return interval;
     });
 }
@@ -108,11 +113,12 @@ void RetainedFile::finish() {
 }
 
 void RetainedFile::write() {
+    if (away_) return;
     try {
         const std::string text = textOf(cluster_->image());
-        if (text == written_) return;
+        if (text == contentOf(file_)) return;
         const std::string problem = replaceFile(file_, text);
-        if (problem.empty()) written_ = text;
+        if (problem.empty()) known_ = text;
         trouble_.tell(problem);
     } catch (const Error& error) {
         trouble_.tell(error.what());  // too many images are held: in a second again

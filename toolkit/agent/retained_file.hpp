@@ -7,6 +7,7 @@
 #include "durable_file.hpp"
 #include "repeating.hpp"
 
+#include <atomic>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -31,10 +32,12 @@ public:
     // aside as FILE.broken. Throws Error where there is something that is no regular file, or a
     // model.
     std::string restore(SimplexTree& tree, bool keeps);
-    // Another process has written it since then.
+    // Another process has written it since this one read or wrote it.
     bool hasChanged() const;
     void keep(cs::ClusterCS& cluster);
     void finish();  // the last values, of the last cycle
+    // Another start of the agent is there: the file is that one's meanwhile.
+    void giveWay(bool away) { away_ = away; }
 
 private:
     void write();
@@ -43,7 +46,8 @@ private:
     std::filesystem::path file_;
     cs::ClusterCS* cluster_ = nullptr;
     std::map<std::string, std::string> good_;  // path.item: the last value that may be restored
-    std::string restored_, written_;           // the file's text
+    std::atomic<bool> away_ = false;
+    std::string known_;  // the file's text, as this process read or wrote it last
     WriteTrouble trouble_;
     Repeating writing_;
 };
