@@ -149,13 +149,48 @@ TEST_F(EventFoldTest, KeepsApartWhatAHeldButtonSaysInOtherWords) {
     EXPECT_EQ(told.size(), 8U);
 }
 
-TEST_F(EventFoldTest, LeavesOutRangesForWhichATextHasNoRoom) {
-    const std::string name(80, 'n');
-    for (const char* speed : {"1.125", "1.25", "1.5"})
-        fold.take(done(name + ": jog(speed=" + speed + "): Done in 1 cycle"), 0);
+TEST_F(EventFoldTest, TellsOneRangeOfAnArrayWhereATextHasNoRoomForEachNumber) {
+    const auto jog = [](const std::string& first, const std::string& last) {
+        return "desk: jog(axes=1 2, speeds=" + first + " 0 0.25 0 0.125 0 " + last +
+               "): Done in 1 cycle";
+    };
+    fold.take(done(jog("0.75", "0")), 0);
+    fold.take(done(jog("-0.123456", "0.5")), 1);
+    fold.take(done(jog("0.5", "-0.654321")), 2);
     fold.pass(second);
     EXPECT_EQ(told.back(),
-              "2 times within a second: " + name + ": jog(speed=1.5): Done in 1 cycle");
+              "2 times within a second: desk: jog(axes=1 2, speeds=0.5 (-0.123456 to 0.5) 0 0.25 "
+              "0 0.125 0 -0.654321 (-0.654321 to 0.5)): Done in 1 cycle");
+    const std::string sender(20, 'n');
+    fold.take(done(sender + jog("-0.123456", "0.5")), second + 2);
+    fold.take(done(sender + jog("-0.123456", "0.5")), second + 2);
+    fold.take(done(sender + jog("0.5", "-0.654321")), second + 3);
+    fold.pass(3 * second);
+    EXPECT_EQ(told.back(), "2 times within a second: " + sender +
+                               "desk: jog(axes=1 2, speeds=0.5 0 0.25 0 0.125 0 -0.654321 (each "
+                               "-0.654321 to 0.5)): Done in 1 cycle");
+}
+
+TEST_F(EventFoldTest, NeverShowsTheLastNumbersOfARunForAllOfIt) {
+    const std::string name(75, 'n');
+    for (const char* speed : {"1", "1.125", "-1.25", "1.5"})
+        fold.take(done(name + ": jog(frame=tip, speed=" + speed + "): Done in 1 cycle"), 0);
+    fold.pass(second);
+    EXPECT_EQ(told.back(), "3 times within a second: " + name +
+                               ": jog(…, numbers -1.25 to 1.5): Done in 1 cycle");
+
+    const auto refused = [](const std::string& speed) {
+        return event(("desk for somebody at the window: jog(speed=" + speed +
+                      "): Rejected (range), speed is above 0.25 rad/s, as its type says it")
+                         .c_str(),
+                     EventKind::Refusal);
+    };
+    for (const char* speed : {"1", "1.125", "7.25", "1.5"}) fold.take(refused(speed), second + 1);
+    fold.pass(3 * second);
+    EXPECT_TRUE(told.back().starts_with(
+        "3 times within a second: desk for somebody at the window: jog(…, numbers 1.125 to 7.25): "
+        "Rejected (range), speed is above"))
+        << told.back();
 }
 
 TEST_F(EventFoldTest, CountsRefusalsOfAHeldButtonAndTellsThoseOfOtherCommands) {
@@ -166,9 +201,37 @@ TEST_F(EventFoldTest, CountsRefusalsOfAHeldButtonAndTellsThoseOfOtherCommands) {
         const std::string number = std::to_string(i);
         fold.take(refused("desk: jog(speed=" + number + "): Rejected (range), " + number + " is"),
                   i);
-        fold.take(refused("desk: set(gain=" + number + "): Rejected (range), no"), i);
     }
-    EXPECT_EQ(told.size(), 6U);
+    EXPECT_EQ(told.size(), 1U);
+    for (int i = 0; i < 5; ++i)
+        fold.take(refused("desk: set(gain=" + std::to_string(i) + "): Rejected (range), no"), i);
+    EXPECT_EQ(told.size(), 7U);
+}
+
+TEST_F(EventFoldTest, TellsASetAgainAfterAnotherInTheOrderInWhichTheyCame) {
+    std::vector<std::string> sent;
+    for (const char* each : {"ann: set(x=1): Done", "bob: set(x=2): Done", "ann: set(x=1): Done",
+                             "ann: set(x=3): Failed, it hurts", "bob: set(x=2): Done",
+                             "ann: take(prefix=\"/\"): Done", "bob: set(x=2): Done"}) {
+        sent.emplace_back(each);
+        Event set = done(each);
+        if (sent.back().starts_with("ann: take")) set.kind = EventKind::Control;
+        fold.take(set, 0);
+        EXPECT_EQ(told, sent);
+    }
+}
+
+TEST_F(EventFoldTest, TellsWhatItCountedOfCommandsBeforeTheNextOne) {
+    for (const char* each :
+         {"ann: jog(speed=1): Done", "ann: jog(speed=2): Done", "ann: jog(speed=3): Done",
+          "bob: set(x=1): Done", "ann: jog(speed=4): Done", "bob: set(x=1): Done"})
+        fold.take(done(each), 0);
+    fold.pass(second);
+
+    EXPECT_EQ(told, (std::vector<std::string>{
+                        "ann: jog(speed=1): Done",
+                        "2 times within a second: ann: jog(speed=3 (2 to 3)): Done",
+                        "bob: set(x=1): Done", "ann: jog(speed=4): Done", "bob: set(x=1): Done"}));
 }
 
 TEST_F(EventFoldTest, NeverTellsATimeBeforeWhatItToldAlready) {
@@ -212,12 +275,13 @@ TEST_F(EventFoldTest, TellsEachCommandThatFailsOrIsRefused) {
 }
 
 TEST_F(EventFoldTest, KeepsApartRefusalsOfPeopleWhoseNamesDifferInANumber) {
-    for (const char* who : {"op1", "op2", "op2", "op3"}) {
+    for (const char* who : {"op1", "op2", "op2", "op2", "op3"}) {
         const std::string text =
             std::string{"desk for "} + who + ": set(x=1): Rejected (authority), no in 1 cycle";
         fold.take(event(text.c_str(), EventKind::Refusal), 0);
     }
-    EXPECT_EQ(told.size(), 3U);
+    ASSERT_EQ(told.size(), 4U);
+    EXPECT_TRUE(told[2].starts_with("2 times within a second: desk for op2: ")) << told[2];
 }
 
 TEST_F(EventFoldTest, KeepsApartWhatDiffersInPathSeverityOrWords) {

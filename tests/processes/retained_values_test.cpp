@@ -180,8 +180,13 @@ protected:
         ASSERT_TRUE(spare->prints("100 Hz as /plant")) << spare->output();
         ASSERT_TRUE(station.waitFor([] { return set({"gain=3"}).exit == 0; })) << spare->output();
         ASSERT_TRUE(countsBy(500)) << "it has taken over for good" << spare->output();
-        kill(first.pid(), SIGCONT);
-        ASSERT_TRUE(first.prints("took over while this one stood still")) << first.output();
+    }
+    void isReadAgain() {
+        ASSERT_TRUE(first.prints("it is read again\n")) << first.output();
+        EXPECT_TRUE(first.prints("/counter.gain 1 -> 3 Hz\n")) << first.output();
+        EXPECT_TRUE(isSet("gain", 3)) << first.output();
+        EXPECT_EQ(first.endInOrder(), 0);
+        EXPECT_TRUE(keepsGain("3")) << retainedText();
     }
     bool keepsGain(const char* value) const {
         return contains(retainedText(), "data=\"gain\" value=\"" + std::string{value} + "\"");
@@ -194,16 +199,29 @@ protected:
 
 TEST_F(RetainedValuesOfTwo, AreThoseOfTheSpareThatTookOverAlsoWhenTheFirstIsBack) {
     takeOver();
+    kill(first.pid(), SIGCONT);
+    ASSERT_TRUE(first.prints("took over while this one stood still")) << first.output();
 
     ASSERT_TRUE(countsBy(200));
     EXPECT_TRUE(keepsGain("3")) << retainedText();
 
     EXPECT_EQ(spare->endInOrder(), 0) << spare->output();
-    ASSERT_TRUE(first.prints("it is read again\n")) << first.output();
-    EXPECT_TRUE(first.prints("/counter.gain 1 -> 3 Hz\n")) << first.output();
-    EXPECT_TRUE(isSet("gain", 3)) << first.output();
-    EXPECT_EQ(first.endInOrder(), 0);
+    isReadAgain();
+}
+
+TEST_F(RetainedValuesOfTwo, AndItsPastAreThoseOfTheSpareAlsoWhenItEndedBeforeTheFirstWentOn) {
+    takeOver();
+    EXPECT_EQ(spare->endInOrder(), 0) << spare->output();
     EXPECT_TRUE(keepsGain("3")) << retainedText();
+
+    kill(first.pid(), SIGCONT);
+    isReadAgain();
+    const std::string past = textOf(folder.path() / "plant.memory");
+    for (const char* set : {"set(gain=2): Done", "set(gain=3): Done"}) {
+        const std::size_t found = past.find(set);
+        EXPECT_NE(found, std::string::npos) << set << "\n" << past;
+        EXPECT_EQ(past.find(set, found + 1), std::string::npos) << set << "\n" << past;
+    }
 }
 
 TEST_F(RetainedValues, KeepTheirLastGoodValueWhereTheNewOneIsNoNumber) {

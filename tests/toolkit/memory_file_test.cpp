@@ -298,9 +298,12 @@ TEST_F(MemoryFileTest, IsLeftToAnotherStartUntilThatHasEnded) {
         second.memory->keep(fault(700, "second", 2));
         second.file.keep();
         second.file.finish();
-        EXPECT_EQ(textOf(path), before);
+        EXPECT_EQ(textOf(path), before + lineOf(fault(700, "second", 2)) + endLine());
         first.file.keep();
         first.memory->keep(fault(600));
+        first.file.finish();
+        EXPECT_EQ(eventsOf(*first.memory),
+                  (std::vector{fault(510), fault(700, "second", 2), fault(600)}));
     }
 
     second.file.keep();
@@ -352,7 +355,7 @@ TEST_F(MemoryFileTest, IsGivenToAnotherStartAndComesBackWithWhatThatWrote) {
     write(first);
 
     other.file.load();
-    EXPECT_EQ(eventsOf(*other.memory), (std::vector{fault(510), fault(511)}));
+    EXPECT_EQ(eventsOf(*other.memory), (std::vector{fault(510), fault(511), fault(515)}));
     other.memory->keep(fault(520, "other", 2));
     write(other);
     other.file.giveWay(true);

@@ -199,7 +199,9 @@ bool runToEnd(Running& running) {
         if (!running.line.wait && isSecond) return true;
         const auto turn = giveWay.look(isSecond);
         const bool isBack = turn == GiveWay::Turn::OursAgain;
-        if (isBack && running.retains && running.retained.hasChanged()) beginAnew(running);
+        if (running.retained.isOld() ||
+            (isBack && running.retains && running.retained.hasChanged()))
+            beginAnew(running);
         const bool isOurs = turn != GiveWay::Turn::Theirs;
         if (!running.startUp) {
             if (isOurs) running.notStarted->look();
@@ -302,7 +304,7 @@ int run(int argc, char** argv) {
             return runOnce(*line, hookCheck, claims);
         } catch (const ValuesAreOld&) {
             std::cout << retainFile(*line).string()
-                      << " has changed while this one waited: it is read again" << std::endl;
+                      << " was written by another start meanwhile: it is read again" << std::endl;
         }
     }
 }

@@ -56,6 +56,7 @@ MemoryFile::MemoryFile(fs::path file, std::string agent, std::shared_ptr<EventMe
     : path_{std::move(file)},
       agent_{std::move(agent)},
       memory_{std::move(memory)},
+      begin_{memory_->since()},
       trouble_{"what the agent remembers is", path_} {}
 
 MemoryFile::~MemoryFile() { finish(); }
@@ -80,7 +81,28 @@ void MemoryFile::keep() {
 void MemoryFile::finish() {
     if (!writing_.finish()) return;
     synced_ = {};
-    if (step() && file_) markEnd();
+    const bool isWritten = step();
+    if (!file_)
+        leaveToOther();
+    else if (isWritten)
+        markEnd();
+}
+
+// Another start has the file, which may stand still. Whatever is added to it that one finds by its
+// size, and takes in.
+void MemoryFile::leaveToOther() {
+    constexpr int tries = 5;  // that one may replace it at any time
+    struct stat there{};
+    for (int i = 0; i < tries && wrongFile().empty(); ++i) {
+        const OpenFile file{path_, flagsToWrite};
+        End end{end_.place, 0, begin_};
+        bool good = static_cast<bool>(file);
+        for (bool more = true; good && more;) good = writePage(file, end, more);
+        if (!good || (end.size > 0 && !file.writeAll(endLine())))
+            return trouble_.tell(failedAt(path_));
+        if (isFileAt(file, path_, there)) return;
+    }
+    trouble_.tell("another start of the agent has " + path_.string());
 }
 
 // What follows is of another start.

@@ -56,6 +56,7 @@ private:
     void tellDropped(const OpenFile& file, const EventMemory::Times& before) const;
     void tellCrash(std::int64_t epoch, std::int64_t written);
     void markEnd();
+    void leaveToOther();
     bool isIntact() const;
     bool isTooLarge(const End& end) const;
     std::string sync();
@@ -63,6 +64,7 @@ private:
     std::filesystem::path path_;
     std::string agent_;
     std::shared_ptr<EventMemory> memory_;
+    EventMemory::Times begin_;  // of what it keeps by itself
     WriteTrouble trouble_;
 
     OpenFile file_;  // locked, while this agent writes it

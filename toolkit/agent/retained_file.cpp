@@ -52,6 +52,8 @@ std::string contentOf(const fs::path& file) {
     return {std::istreambuf_iterator<char>{stream}, {}};
 }
 
+constexpr Repeating::Pause interval{1000};
+
 bool isRetained(const ItemLayout& each) { return each.item->retain; }
 
 }  // namespace
@@ -95,25 +97,37 @@ std::string RetainedFile::restore(SimplexTree& tree, bool keeps) {
     return lines;
 }
 
-bool RetainedFile::hasChanged() const { return contentOf(file_) != known_; }
+bool RetainedFile::hasChanged() const {
+    const std::lock_guard lock{mutex_};
+    return contentOf(file_) != known_;
+}
 
 void RetainedFile::keep(cs::ClusterCS& cluster) {
-    static constexpr Repeating::Pause interval{1000};
     cluster_ = &cluster;
-    // After a standstill another start may have taken over: the network says so within a second.
-    writing_.start("cortex-retain", interval, [this, last = Clock::now()]() mutable {
-        const Clock::time_point before = std::exchange(last, Clock::now());
-        if (last - before < 2 * interval) write();
+    looked_ = Clock::now();
+    writing_.start("cortex-retain", interval, [this] {
+        write(Last::No);
         return interval;
     });
 }
 
 void RetainedFile::finish() {
-    if (writing_.finish()) write();
+    if (writing_.finish()) write(Last::Yes);
 }
 
-void RetainedFile::write() {
-    if (away_) return;
+// After a standstill another start may have taken over. If that one is still there, the network
+// says so within a second; if it has ended, the file is its only word.
+void RetainedFile::write(Last last) {
+    const std::lock_guard lock{mutex_};
+    const Clock::time_point before = std::exchange(looked_, Clock::now());
+    const bool stoodStill = looked_ - before >= 2 * interval;
+    isDoubtful_ = isDoubtful_ || stoodStill;
+    if (away_ || isOld_ || (stoodStill && last == Last::No)) return;
+    if (std::exchange(isDoubtful_, false)) {
+        const std::string there = contentOf(file_);
+        isOld_ = !there.empty() && there != known_;
+        if (isOld_) return;
+    }
     try {
         const std::string text = textOf(cluster_->image());
         if (text == contentOf(file_)) return;

@@ -8,8 +8,11 @@
 #include "repeating.hpp"
 
 #include <atomic>
+#include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <map>
+#include <mutex>
 #include <string>
 
 namespace cortex::toolkit {
@@ -34,20 +37,27 @@ public:
     std::string restore(SimplexTree& tree, bool keeps);
     // Another process has written it since this one read or wrote it.
     bool hasChanged() const;
+    // Another start has written it while this process stood still. What this one has is older, and
+    // is not written: begin anew.
+    bool isOld() const { return isOld_; }
     void keep(cs::ClusterCS& cluster);
     void finish();  // the last values, of the last cycle
     // Another start of the agent is there: the file is that one's meanwhile.
     void giveWay(bool away) { away_ = away; }
 
 private:
-    void write();
+    enum class Last : std::uint8_t { No, Yes };
+    void write(Last last);
     std::string textOf(const Image& image);
 
     std::filesystem::path file_;
     cs::ClusterCS* cluster_ = nullptr;
     std::map<std::string, std::string> good_;  // path.item: the last value that may be restored
-    std::atomic<bool> away_ = false;
-    std::string known_;  // the file's text, as this process read or wrote it last
+    std::atomic<bool> away_ = false, isOld_ = false;
+    mutable std::mutex mutex_;  // guards the rest but for the last two
+    std::string known_;         // the file's text, as this process read or wrote it last
+    std::chrono::steady_clock::time_point looked_{};
+    bool isDoubtful_ = false;  // there was a standstill
     WriteTrouble trouble_;
     Repeating writing_;
 };

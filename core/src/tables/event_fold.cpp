@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace cortex {
@@ -20,10 +21,12 @@ constexpr std::array foldedKinds{EventKind::Refusal,  EventKind::Overflow, Event
                                  EventKind::Conflict, EventKind::Agent,    EventKind::Message,
                                  EventKind::Loss};
 
+bool isOfCommand(EventKind kind) {
+    return kind == EventKind::Command || kind == EventKind::Control || kind == EventKind::Refusal;
+}
+
 std::optional<CommandSentence> sentenceOf(const Event& event) {
-    const bool tells = event.kind == EventKind::Command || event.kind == EventKind::Control ||
-                       event.kind == EventKind::Refusal;
-    return tells ? commandSentence(event.text.view()) : std::nullopt;
+    return isOfCommand(event.kind) ? commandSentence(event.text.view()) : std::nullopt;
 }
 
 // What was cut off may have been another word.
@@ -40,7 +43,69 @@ bool mayFold(const Event& event) {
     return kind && event.severity != Severity::Error;
 }
 
+bool isOver(std::int64_t since, std::int64_t now) {
+    return now == std::numeric_limits<std::int64_t>::max() || now - since >= foldedFor;
+}
+
+// How the numbers of a repeated command are told beside the last ones.
+enum class Ranges { OfEach, OfArrays, Alone };
+constexpr std::array rangesByLength{Ranges::OfEach, Ranges::OfArrays, Ranges::Alone};
+
+std::string bracket(const NumberRange& range, std::string_view before) {
+    return std::string{" ("}.append(before) + range.least + " to " + range.greatest + ")";
+}
+
+NumberRange joined(std::span<const NumberRange> ranges) {
+    NumberRange all = ranges.front();
+    for (const NumberRange& each : ranges) {
+        all.take(each.least);
+        all.take(each.greatest);
+    }
+    return all;
+}
+
+bool areOne(std::span<const NumberRange> ranges) {
+    return std::ranges::all_of(ranges, &NumberRange::isOne);
+}
+
+// "axis=1, speed=0.5 (-0.5 to 0.7)"; of an array "speed=0.5 0 (each -0.5 to 0.7)".
+std::string argumentsWithRanges(std::string_view arguments, std::span<const NumberRange> ranges,
+                                Ranges which) {
+    if (which == Ranges::Alone)
+        return "…, numbers " + joined(ranges).least + " to " + joined(ranges).greatest;
+    const std::string words = numberedText(arguments).words;
+    const std::string goesOn{' ', numberSign};
+    std::string text;
+    std::size_t first = 0, place = 0;  // of the array, of the number
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (words[i] != numberSign) {
+            text += words[i];
+            continue;
+        }
+        text += ranges[place++].last;
+        if (which == Ranges::OfArrays && words.compare(i + 1, goesOn.size(), goesOn) == 0) continue;
+        const auto array = ranges.subspan(first, place - first);
+        if (!areOne(array)) text += bracket(joined(array), array.size() > 1 ? "each " : "");
+        first = place;
+    }
+    return text;
+}
+
+// "desk: jog(axis=1, speed=0.5 (-0.5 to 0.7)): Done in 1 cycle"
+std::string withRanges(std::string_view last, std::span<const NumberRange> ranges, Ranges which) {
+    const std::string_view arguments = commandSentence(last)->arguments;
+    const auto begin = static_cast<std::size_t>(arguments.data() - last.data());
+    return std::string{last.substr(0, begin)}
+        .append(argumentsWithRanges(arguments, ranges, which))
+        .append(last.substr(begin + arguments.size()));
+}
+
 }  // namespace
+
+bool EventFold::isRepeated(const Event& event) const {
+    const auto sentence = sentenceOf(event);
+    return sentence && isRepeated_(event.simplex, sentence->command);
+}
 
 std::string EventFold::keyOf(const Event& event) const {
     const auto sentence = sentenceOf(event);
@@ -56,41 +121,58 @@ std::string EventFold::keyOf(const Event& event) const {
 
 void EventFold::take(const Event& event, std::int64_t now) {
     pass(now);
-    if (!mayFold(event)) return handOn(event);
     const Key key{event.simplex, event.kind, event.severity, keyOf(event)};
-    const auto found = open_.find(key);
+    const auto found = mayFold(event) ? open_.find(key) : open_.end();
     if (found != open_.end()) return count(found->second, event);
-    if (open_.size() < mostOpen) open_[key] = {now, 0, event, {}};
+    begin(event, key, now);
     handOn(event);
 }
 
-void EventFold::count(Folded& folded, const Event& event) const {
+void EventFold::begin(const Event& event, const Key& key, std::int64_t now) {
+    const bool repeated = isRepeated(event);
+    if (isOfCommand(event.kind)) {
+        tell(now, true);
+        if (!repeated) endRunsOfCommands();
+    }
+    if (mayFold(event) && open_.size() < mostOpen) open_[key] = {now, 0, repeated, event, {}};
+}
+
+// After another one the same command is told again.
+void EventFold::endRunsOfCommands() {
+    std::erase_if(open_, [](const auto& each) {
+        const auto& [key, folded] = each;
+        return isOfCommand(folded.last.kind) && !folded.repeated;
+    });
+}
+
+void EventFold::count(Folded& folded, const Event& event) {
     ++folded.count;
     folded.last = event;
-    const auto sentence = sentenceOf(event);
-    if (!sentence || !isRepeated_(event.simplex, sentence->command)) return;
+    if (!folded.repeated) return;
     std::size_t place = 0;
-    for (const std::string& each : numberedText(sentence->arguments).numbers) {
+    for (const std::string& each : numberedText(sentenceOf(event)->arguments).numbers) {
         if (place == folded.ranges.size()) folded.ranges.emplace_back(each);
         folded.ranges[place++].take(each);
     }
 }
 
-// A second in which nothing was counted ends the folding. Of those that are told, the oldest first.
+// A second in which nothing was counted ends the folding.
 void EventFold::pass(std::int64_t now) {
+    std::erase_if(open_, [now](const auto& each) {
+        return each.second.count == 0 && isOver(each.second.since, now);
+    });
+    const bool commands = std::ranges::any_of(open_, [now](const auto& each) {
+        return isOfCommand(each.second.last.kind) && isOver(each.second.since, now);
+    });
+    tell(now, commands);
+}
+
+// Those whose second is over, and of `commands` all, so that these stay in order. The oldest first.
+void EventFold::tell(std::int64_t now, bool commands) {
     std::vector<Folded*> due;
-    for (auto each = open_.begin(); each != open_.end();) {
-        Folded& folded = each->second;
-        if (now < std::numeric_limits<std::int64_t>::max() && now - folded.since < foldedFor) {
-            ++each;
-            continue;
-        }
-        if (folded.count == 0) {
-            each = open_.erase(each);
-            continue;
-        }
-        due.push_back(&folded);
-        ++each;
+    for (auto& [key, folded] : open_) {
+        const bool isDue = isOver(folded.since, now) || (commands && isOfCommand(folded.last.kind));
+        if (folded.count > 0 && isDue) due.push_back(&folded);
     }
     std::ranges::sort(due, {}, [](const Folded* each) {
         return std::pair{each->last.wallClock, each->last.number};
@@ -111,31 +193,15 @@ void EventFold::tell(const Folded& folded) {
     if (folded.count == 1) return handOn(event);
     EventText times;
     times << folded.count << timesWithinASecond;
-    const std::string ranged = withRanges(folded);
-    const bool fits = times.view().size() + ranged.size() <= EventText::capacity;
-    event.text = times;
-    event.text << (fits ? std::string_view{ranged} : folded.last.text.view());
-    handOn(event);
-}
-
-// "desk: jog(axis=1, speed=0.5 (-0.5 to 0.7)): Done in 1 cycle"
-std::string EventFold::withRanges(const Folded& folded) {
-    const std::string_view last = folded.last.text.view();
-    if (folded.ranges.empty()) return std::string{last};
-    const std::string_view arguments = sentenceOf(folded.last)->arguments;
-    const auto begin = static_cast<std::size_t>(arguments.data() - last.data());
-    std::string text{last.substr(0, begin)};
-    std::size_t place = 0;
-    for (const char each : numberedText(arguments).words) {
-        if (each != numberSign) {
-            text += each;
-            continue;
+    std::string text{folded.last.text.view()};
+    if (!areOne(folded.ranges)) {
+        for (const Ranges which : rangesByLength) {
+            text = withRanges(folded.last.text.view(), folded.ranges, which);
+            if (times.view().size() + text.size() <= EventText::capacity) break;
         }
-        const NumberRange& range = folded.ranges[place++];
-        text += range.last;
-        if (!range.isOne()) text += " (" + range.least + " to " + range.greatest + ")";
     }
-    return text.append(last.substr(begin + arguments.size()));
+    event.text = times << text;
+    handOn(event);
 }
 
 void EventFold::handOn(Event event) {

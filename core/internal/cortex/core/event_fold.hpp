@@ -16,9 +16,10 @@ namespace cortex {
 
 // Hands the first of equal events on at once, and counts those that follow: each second one event
 // says how many there were. Texts that differ only in numbers are equal. Commands are only where
-// they are the same word for word, or where their type says that a held button repeats them: of
-// these the event tells the last arguments, and the ranges of their numbers. Faults, errors,
-// changes of state, and commands that fail are never folded. Numbers what it hands on, whose times
+// they are the same word for word and no other came between them, or where their type says that a
+// held button repeats them: of these the event tells the last arguments, and the ranges of their
+// numbers. Faults, errors, changes of state, and commands that fail are never folded. What was
+// counted of commands is told before the next command is. Numbers what it hands on, whose times
 // never go back for its sake. One thread at a time.
 class EventFold {
 public:
@@ -37,14 +38,18 @@ private:
     struct Folded {
         std::int64_t since = 0;
         std::int64_t count = 0;  // that were not handed on
+        bool repeated = false;   // a command of a held button
         Event last;
-        std::vector<NumberRange> ranges;  // of the numbers of a command that is repeated
+        std::vector<NumberRange> ranges;  // of its numbers
     };
+    bool isRepeated(const Event& event) const;
     std::string keyOf(const Event& event) const;
-    void count(Folded& folded, const Event& event) const;
-    void handOn(Event event);
+    static void count(Folded& folded, const Event& event);
+    void begin(const Event& event, const Key& key, std::int64_t now);
+    void endRunsOfCommands();
+    void tell(std::int64_t now, bool commands);
     void tell(const Folded& folded);
-    static std::string withRanges(const Folded& folded);
+    void handOn(Event event);
 
     Out out_;
     IsRepeated isRepeated_;
