@@ -303,7 +303,7 @@ TEST_F(MemoryFileTest, IsLeftToAnotherStartUntilThatHasEnded) {
         first.memory->keep(fault(600));
         first.file.finish();
         EXPECT_EQ(eventsOf(*first.memory),
-                  (std::vector{fault(510), fault(700, "second", 2), fault(600)}));
+                  (std::vector{fault(510), fault(600), fault(700, "second", 2)}));
     }
 
     second.file.keep();
