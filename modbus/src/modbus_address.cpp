@@ -5,7 +5,9 @@
 #include "cortex/core/printable.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <cstring>
 
 #include <arpa/inet.h>
 #include <net/if.h>
@@ -93,6 +95,27 @@ void ModbusAddress::takeV6(std::string_view text, std::uint16_t port) {
 std::string ModbusAddress::text() const {
     const bool isV6 = v6_.sin6_family == AF_INET6;
     return host_ + ":" + std::to_string(ntohs(isV6 ? v6_.sin6_port : v4_.sin_port));
+}
+
+// An address of all interfaces leads to this host, and an IPv4 one may stand within an IPv6 one.
+std::string ModbusAddress::numericText() const {
+    const bool isMapped = IN6_IS_ADDR_V4MAPPED(&v6_.sin6_addr);
+    const bool isV6 = v6_.sin6_family == AF_INET6;
+    const std::string port = ":" + std::to_string(ntohs(isV6 ? v6_.sin6_port : v4_.sin_port));
+    std::array<char, INET6_ADDRSTRLEN> number{};
+    if (isV6 && !isMapped) {
+        const in6_addr& address =
+            IN6_IS_ADDR_UNSPECIFIED(&v6_.sin6_addr) ? in6addr_loopback : v6_.sin6_addr;
+        inet_ntop(AF_INET6, &address, number.data(), number.size());
+        const std::uint32_t zone = v6_.sin6_scope_id;
+        return "[" + std::string{number.data()} + (zone == 0 ? "" : "%" + std::to_string(zone)) +
+               "]" + port;
+    }
+    in_addr address = v4_.sin_addr;
+    if (isMapped) std::memcpy(&address, v6_.sin6_addr.s6_addr + 12, sizeof address);
+    if (address.s_addr == htonl(INADDR_ANY)) address.s_addr = htonl(INADDR_LOOPBACK);
+    inet_ntop(AF_INET, &address, number.data(), number.size());
+    return number.data() + port;
 }
 
 const sockaddr* ModbusAddress::socketAddress() const {

@@ -22,6 +22,8 @@ public:
     static ModbusAddress parse(std::string_view text);
 
     std::string text() const;  // with the port
+    // The same text for every spelling of what is connected to.
+    std::string numericText() const;
     const sockaddr* socketAddress() const;
     socklen_t length() const;
 

@@ -151,6 +151,7 @@ const char* const smallModel = R"(<ontology name="small" version="1.0">
   <type name="Mover" extends="Active"/>
   <type name="Guard" extends="Active"/>
   <type name="Drive" extends="Device"/>
+  <type name="Shown" extends="Concept"/>
 </ontology>
 )";
 
@@ -211,6 +212,9 @@ const char* const smallRules = R"(<morphology name="small">
   </rules>
   <rules type="Drive">
     <relationship name="demands" direction="input" target="Axis"/>
+  </rules>
+  <rules type="Shown">
+    <relationship name="axes" direction="output" target="Axis"/>
   </rules>
 </morphology>
 )";

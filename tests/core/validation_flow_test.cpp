@@ -144,6 +144,12 @@ TEST(Validation, FindsSafeValuesThatADelayedOutputOfAControllerWouldIgnore) {
         << finding.message;
     EXPECT_TRUE(finding.remedy.starts_with("write <relate rule=\"demands\" to=\"/d\"/>; "))
         << finding.remedy;
+    const CheckedModel shown =
+        checkSmall(simplex("/c", "Controller",
+                           relate("axes", "/o") + relate("demands", "/d", "delayed=\"true\"")) +
+                   simplex("/shown", "Shown", relate("axes", "/d")) + simplex("/o", "Axis") +
+                   simplex("/d", "Axis"));
+    EXPECT_EQ(shown.count("delayed-safe"), 1U) << "who only describes writes nothing";
 }
 
 TEST(Validation, FindsThemWhereADeviceFollowsWhatIsDelayed) {
@@ -328,8 +334,11 @@ TEST(Validation, WantsAWriterOfWhatReactsToItsLoss) {
     EXPECT_EQ(finding.place.text(), "system.xml:5");
     EXPECT_TRUE(contains(finding.message, "has onLoss=\"safe\", but nobody writes /other"))
         << finding.message;
-    EXPECT_TRUE(contains(finding.remedy, R"(<relate rule="axes" to="/other" remote="true"/>)"))
+    const std::string elsewhere =
+        R"(<relate rule="axes" to="/other" remote="true" type="RotaryAxisConcept"/>)";
+    EXPECT_TRUE(contains(finding.remedy, "remove /other here and write " + elsewhere))
         << finding.remedy;
+    EXPECT_EQ(checkWith(elsewhere, "").report.text(), "");
 
     // What another agent has is known by the target of the rule, unless the system says more.
     const std::string remote = R"(<relate rule="axes" to="/other" remote="true")";

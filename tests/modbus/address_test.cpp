@@ -20,6 +20,18 @@ std::string refusalOfAddress(const std::string& text) {
     }
 }
 
+TEST(ModbusAddress, HasOneNumericTextHoweverItIsSpelled) {
+    for (const char* text : {"localhost:1502", "LOCALHOST:1502", "127.0.0.1:001502", "0.0.0.0:1502",
+                             "[::ffff:127.0.0.1]:1502", "[::FFFF:7f00:1]:1502"})
+        EXPECT_EQ(ModbusAddress::parse(text).numericText(), "127.0.0.1:1502") << text;
+    for (const char* text : {"[::1]", "[0:0:0:0:0:0:0:1]:502", "[::]:0502"})
+        EXPECT_EQ(ModbusAddress::parse(text).numericText(), "[::1]:502") << text;
+    EXPECT_EQ(ModbusAddress::parse("[2001:DB8:0::7]").numericText(), "[2001:db8::7]:502");
+    EXPECT_EQ(ModbusAddress::parse("[::ffff:192.168.1.10]").numericText(), "192.168.1.10:502");
+    EXPECT_EQ(ModbusAddress::parse("[fe80::1%lo]").numericText(),
+              "[fe80::1%" + std::to_string(if_nametoindex("lo")) + "]:502");
+}
+
 TEST(ModbusAddress, IsAHostAndAPortOr502) {
     EXPECT_EQ(ModbusAddress::parse("192.168.1.10").text(), "192.168.1.10:502");
     EXPECT_EQ(ModbusAddress::parse("192.168.1.10:1502").text(), "192.168.1.10:1502");

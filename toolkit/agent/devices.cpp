@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices.hpp"
 
+#include "cortex/core/error.hpp"
 #include "cortex/core/printable.hpp"
 #include "cortex/cs/io_exchange.hpp"
 
+#include "modbus_address.hpp"
 #include "stored_values.hpp"
 
 namespace cortex::toolkit {
@@ -14,13 +16,13 @@ std::string textOf(const Simplex& simplex, const char* item) {
     return found == nullptr ? std::string{} : toText(startValue(simplex, *found));
 }
 
-// Of Modbus, as docs/modbus.md has addresses.
-std::string wholeAddress(std::string address) {
-    constexpr std::string_view local = "localhost";
-    if (address.starts_with(local)) address.replace(0, local.size(), "127.0.0.1");
-    const bool hasPort = address.starts_with('[') ? address.find("]:") != std::string::npos
-                                                  : address.find(':') != std::string::npos;
-    return hasPort ? address : address + ":502";
+// One that is wrong is refused by its class.
+std::string modbusAddress(const std::string& text) {
+    try {
+        return modbus::ModbusAddress::parse(text).numericText();
+    } catch (const Error&) {
+        return text;
+    }
 }
 
 }  // namespace
@@ -33,7 +35,7 @@ std::vector<TalkedTo> devicesOf(const SimplexTree& tree) {
         if (!isBeside || !type.isA("FieldbusDevice")) continue;
         std::string address = textOf(*simplex, "address");
         const bool isModbus = type.isA("ModbusDevice");
-        if (isModbus) address = wholeAddress(address) + ", unit " + textOf(*simplex, "unit");
+        if (isModbus) address = modbusAddress(address) + ", unit " + textOf(*simplex, "unit");
         devices.push_back({path, printable(address)});
     }
     return devices;

@@ -25,6 +25,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <functional>
 #include <iostream>
@@ -35,6 +36,7 @@
 #include <system_error>
 #include <vector>
 
+#include <sys/prctl.h>
 #include <unistd.h>
 
 namespace cortex::toolkit {
@@ -290,7 +292,10 @@ int run(int argc, char** argv) {
         dumpModel(*line);
         return Ended;
     }
-    if (line->validates) return printStartFindings(*line) ? Ended : Refused;
+    if (line->validates) {
+        prctl(PR_SET_PDEATHSIG, SIGKILL);  // a plug-in may not return, and who waits may be stopped
+        return printStartFindings(*line) ? Ended : Refused;
+    }
     std::optional<PatientOutput> out, errors;
     if (!line->checkHooks) {  // which tells what hooks print with the library's own streams
         out.emplace(std::cout, STDOUT_FILENO);

@@ -7,8 +7,10 @@
 #include "model/resolved_relations.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <unordered_map>
+#include <utility>
 
 // Who writes a demand and who reads it must agree on what observes it. The one says so by
 // `counterpart`: a controller, a processor of drives. The other says so by `sameCount`: a device,
@@ -41,9 +43,18 @@ struct Pairing {
     Row observed, demanded;
 };
 
+// One of them, by the place of the demand.
+struct Said {
+    const Pairing& by;
+    std::size_t n;
+
+    const std::string& demand() const { return by.demanded.path(n); }
+    const std::string& observation() const { return by.observed.path(n); }
+};
+
+// Two that say what observes a demand.
 struct Crossing {
-    const Pairing &writer, &reader;
-    std::size_t written, read;  // places of the demand with the one and the other
+    Said writer, reader;
 };
 
 std::string text(const Row& row, std::size_t n) {
@@ -56,7 +67,11 @@ std::string text(const Row& row, std::size_t n) {
 std::string line(const Row& row, std::size_t n) {
     const Simplex::Relation& relation = *row.relations[n];
     const std::string place = relation.place.text();
-    return relateText(relation.rule, relation.target) + (place.empty() ? "" : " (" + place + ")");
+    return relateText(relation) + (place.empty() ? "" : " (" + place + ")");
+}
+
+std::string insteadOf(const Row& row, std::size_t n, const std::string& target) {
+    return relateText(*row.relations[n], row.relations[n]->rule, target);
 }
 
 class Pairs {
@@ -65,8 +80,7 @@ public:
         : report_{report} {
         for (const auto& [path, simplex] : writers.simplexes()) collectWriters(*simplex);
         for (const Pairing& each : writers_) {
-            for (std::size_t n = 0; n < each.demanded.size(); ++n)
-                written_[each.observed.path(n)].insert(each.demanded.path(n));
+            for (std::size_t n = 0; n < each.demanded.size(); ++n) enter(writing_, {each, n});
         }
         for (const SimplexTree* tree : readers) {
             const std::size_t first = readers_.size();
@@ -75,7 +89,7 @@ public:
         }
     }
 
-    void check() const {
+    void check() {
         for (const Pairing& writer : writers_) check(writer);
     }
 
@@ -85,17 +99,34 @@ private:
     static void add(std::vector<Pairing>& pairings, const Simplex& owner, const Rule& observed,
                     const Rule& demanded);
     void enter(std::size_t reader, bool elsewhere);
-    void check(const Pairing& writer) const;
+    void check(const Pairing& writer);
     bool isCrossed(const Crossing& crossing) const;
-    void report(const Crossing& crossing) const;
-    static std::string remedy(const Crossing& crossing);
+    void report(const Said& wrong, const Said& other, const std::string& remedy) const;
+    static std::string remedyOfEither(const Crossing& crossing);
+
+    // What all of one side say.
+    struct Sayings {
+        std::unordered_map<std::string_view, std::set<std::string_view>> demands;  // by observation
+        // By demand and observation.
+        std::map<std::pair<std::string_view, std::string_view>, std::set<const Simplex*>> owners;
+
+        std::size_t count(std::string_view demand, std::string_view observation) const {
+            const auto found = owners.find({demand, observation});
+            return found == owners.end() ? 0 : found->second.size();
+        }
+    };
+    static void enter(Sayings& sayings, const Said& said);
+    std::size_t countOf(std::string_view demand, std::string_view observation) const {
+        return writing_.count(demand, observation) + reading_.count(demand, observation);
+    }
+    std::string demandOf(const Said& wrong) const;
+    std::string remedyOfOne(const Said& wrong, const Said& other, const Sayings& side) const;
 
     Report& report_;
     std::vector<Pairing> writers_, readers_;
     std::unordered_map<std::string_view, std::vector<std::size_t>> readersOf_;  // of a demand
-    // What the one and what the other say that each observation is of.
-    using Demands = std::unordered_map<std::string_view, std::set<std::string_view>>;
-    Demands written_, read_;
+    Sayings writing_, reading_;
+    std::set<const Simplex*> odd_;  // readers that are told
 };
 
 void Pairs::collectWriters(const Simplex& owner) {
@@ -134,76 +165,123 @@ void Pairs::add(std::vector<Pairing>& pairings, const Simplex& owner, const Rule
         pairings.push_back(std::move(pairing));
 }
 
+void Pairs::enter(Sayings& sayings, const Said& said) {
+    sayings.demands[said.observation()].insert(said.demand());
+    sayings.owners[{said.demand(), said.observation()}].insert(said.by.owner);
+}
+
 // Another agent may have demands of its own at the same paths.
 void Pairs::enter(std::size_t reader, bool elsewhere) {
     const Row& demanded = readers_[reader].demanded;
     for (const auto& [path, place] : demanded.places) {
         if (elsewhere && !demanded.relations[place]->remote) continue;
-        read_[readers_[reader].observed.path(place)].insert(path);
+        enter(reading_, {readers_[reader], place});
         auto& all = readersOf_[path];
         if (all.size() < mostReaders) all.push_back(reader);
     }
 }
 
-// One finding for each reader: to exchange two lines may mend several places.
-void Pairs::check(const Pairing& writer) const {
+// One finding for each reader: to exchange two lines may mend several places. Where more say the
+// same as the writer, the reader is wrong, and is told once.
+void Pairs::check(const Pairing& writer) {
     std::set<const Simplex*> told;
     for (std::size_t n = 0; n < writer.demanded.size(); ++n) {
         const auto found = readersOf_.find(writer.demanded.path(n));
         if (found == readersOf_.end()) continue;
         for (const std::size_t i : found->second) {
             const Pairing& reader = readers_[i];
-            const std::size_t place = reader.demanded.find(writer.demanded.path(n));
-            const Crossing crossing{writer, reader, n, place};
-            if (!isCrossed(crossing) || !told.insert(reader.owner).second) continue;
-            report(crossing);
+            const Crossing each{{writer, n},
+                                {reader, reader.demanded.find(writer.demanded.path(n))}};
+            if (!isCrossed(each) || !told.insert(reader.owner).second) continue;
+            const std::size_t asWriter = countOf(each.writer.demand(), each.writer.observation()),
+                              asReader = countOf(each.reader.demand(), each.reader.observation());
+            if (asWriter == asReader)
+                report(each.writer, each.reader, remedyOfEither(each));
+            else if (asWriter < asReader)
+                report(each.writer, each.reader, remedyOfOne(each.writer, each.reader, writing_));
+            else if (odd_.insert(reader.owner).second)
+                report(each.reader, each.writer, remedyOfOne(each.reader, each.writer, reading_));
         }
     }
 }
 
 // What observes the demand for the one is another demand's for the other, whoever says so.
 bool Pairs::isCrossed(const Crossing& c) const {
-    const std::string &ofWriter = c.writer.observed.path(c.written),
-                      &ofReader = c.reader.observed.path(c.read);
-    if (ofWriter == ofReader) return false;
-    const auto isAnothers = [&](const Demands& demands, const std::string& observed) {
-        const auto found = demands.find(observed);
-        return found != demands.end() && !found->second.contains(c.reader.demanded.path(c.read));
+    if (c.writer.observation() == c.reader.observation()) return false;
+    const auto isAnothers = [&](const Sayings& sayings, const std::string& observation) {
+        const auto found = sayings.demands.find(observation);
+        return found != sayings.demands.end() && !found->second.contains(c.reader.demand());
     };
-    return isAnothers(read_, ofWriter) || isAnothers(written_, ofReader);
+    return isAnothers(reading_, c.writer.observation()) ||
+           isAnothers(writing_, c.reader.observation());
 }
 
-void Pairs::report(const Crossing& c) const {
-    const Row &written = c.writer.demanded, &read = c.reader.demanded;
-    const Simplex::Relation& relation = *written.relations[c.written];
-    report_.error(c.writer.owner->path(), finding::pairCrossed, relation.place,
+void Pairs::report(const Said& wrong, const Said& other, const std::string& remedy) const {
+    const Simplex::Relation& relation = *wrong.by.demanded.relations[wrong.n];
+    report_.error(wrong.by.owner->path(), finding::pairCrossed, relation.place,
                   relation.target + " (rule '" + relation.rule + "') stands in the place of " +
-                      text(c.writer.observed, c.written) + ", but in " + c.reader.owner->path() +
-                      " " + text(read, c.read) + " stands in the place of " +
-                      text(c.reader.observed, c.read),
-                  remedy(c));
+                      text(wrong.by.observed, wrong.n) + ", but in " + other.by.owner->path() +
+                      " " + text(other.by.demanded, other.n) + " stands in the place of " +
+                      text(other.by.observed, other.n),
+                  remedy);
 }
 
-std::string Pairs::remedy(const Crossing& c) {
-    const Row &written = c.writer.demanded, &read = c.reader.demanded;
-    const Row &observedByWriter = c.writer.observed, &observedByReader = c.reader.observed;
+// Nothing says which of the two is wrong.
+std::string Pairs::remedyOfEither(const Crossing& c) {
+    const Pairing &writer = c.writer.by, &reader = c.reader.by;
     // What the reader has in the place of what the writer observes.
-    const std::size_t observed = observedByReader.find(observedByWriter.path(c.written));
-    const bool readerHasBoth = observed != observedByReader.size();
-    std::size_t other = readerHasBoth ? written.find(read.path(observed)) : written.size();
-    if (other == written.size()) other = observedByWriter.find(observedByReader.path(c.read));
-    const std::string instead = readerHasBoth ? "; if the order in " + c.reader.owner->path() +
-                                                    " is wrong, exchange " + line(read, c.read) +
-                                                    " and " + line(read, observed)
-                                              : "";
-    if (other < written.size()) return "exchange this line and " + line(written, other) + instead;
+    const std::size_t observed = reader.observed.find(c.writer.observation());
+    const bool readerHasBoth = observed != reader.observed.size();
+    std::size_t other = readerHasBoth ? writer.demanded.find(reader.demanded.path(observed))
+                                      : writer.demanded.size();
+    if (other == writer.demanded.size()) other = writer.observed.find(c.reader.observation());
+    const std::string instead =
+        readerHasBoth
+            ? "; if the order in " + reader.owner->path() + " is wrong, exchange " +
+                  line(reader.demanded, c.reader.n) + " and " + line(reader.demanded, observed)
+            : "";
+    if (other < writer.demanded.size())
+        return "exchange this line and " + line(writer.demanded, other) + instead;
     if (readerHasBoth)
-        return "write " + relateText(written.relations[c.written]->rule, read.path(observed)) +
+        return "write " + insteadOf(writer.demanded, c.writer.n, reader.demanded.path(observed)) +
                instead;
-    return "write " +
-           relateText(observedByWriter.relations[c.written]->rule, observedByReader.path(c.read)) +
-           " in the place of " + line(observedByWriter, c.written) + "; if " +
-           c.reader.owner->path() + " is wrong, relate another demand or observation there";
+    return "write " + insteadOf(writer.observed, c.writer.n, c.reader.observation()) +
+           " in the place of " + line(writer.observed, c.writer.n) + "; if " +
+           reader.owner->path() + " is wrong, relate another demand or observation there";
+}
+
+// Whose demand others say that its observation is; "": nobody's.
+std::string Pairs::demandOf(const Said& wrong) const {
+    std::string_view best;
+    std::size_t most = 0;
+    for (const Sayings* side : {&writing_, &reading_}) {
+        const auto found = side->demands.find(wrong.observation());
+        if (found == side->demands.end()) continue;
+        for (const std::string_view demand : found->second) {
+            const std::size_t count = countOf(demand, wrong.observation());
+            if (demand == wrong.demand() || count <= most) continue;
+            best = demand;
+            most = count;
+        }
+    }
+    return std::string{best};
+}
+
+// Either its demand or its observation is another simplex: rather the one that fewer of its side
+// have already.
+std::string Pairs::remedyOfOne(const Said& wrong, const Said& other, const Sayings& side) const {
+    const Row &demanded = wrong.by.demanded, &observed = wrong.by.observed;
+    const std::string demand = demandOf(wrong);
+    const std::size_t place = demanded.find(demand);
+    if (place < demanded.size()) return "exchange this line and " + line(demanded, place);
+    const std::string observation = "write " + insteadOf(observed, wrong.n, other.observation()) +
+                                    " in the place of " + line(observed, wrong.n);
+    if (demand.empty()) return observation;
+    const std::string instead = "write " + insteadOf(demanded, wrong.n, demand);
+    return side.count(demand, wrong.observation()) <=
+                   side.count(wrong.demand(), other.observation())
+               ? instead + ", or " + observation
+               : observation + ", or " + instead + " in the place of this line";
 }
 
 }  // namespace

@@ -14,6 +14,24 @@ std::string relateText(std::string_view rule, std::string_view to, std::string_v
     return text + "/>";
 }
 
+std::string relateText(const Simplex::Relation& relation) {
+    std::string more;
+    const auto add = [&more](const std::string& name, const std::string& value) {
+        more += (more.empty() ? "" : " ") + name + "=\"" + xmlAttribute(value) + "\"";
+    };
+    if (relation.remote) add("remote", "true");
+    if (!relation.type.empty()) add("type", relation.type);
+    if (relation.delayed) add("delayed", "true");
+    if (relation.maxAge > 0) add("maxAge", toText(relation.maxAge));
+    return relateText(relation.rule, relation.target, more);
+}
+
+std::string relateText(Simplex::Relation relation, const std::string& rule, const std::string& to) {
+    relation.rule = rule;
+    relation.target = to;
+    return relateText(relation);
+}
+
 std::string setText(std::string_view item, std::string_view value) {
     return setElement(item, value);
 }

@@ -12,6 +12,9 @@ namespace cortex {
 
 // Remedies are written as the XML that mends the model, so that they can be copied into it.
 std::string relateText(std::string_view rule, std::string_view to, std::string_view more = "");
+std::string relateText(const Simplex::Relation& relation);
+// That line with another rule or target, so that its other attributes stay.
+std::string relateText(Simplex::Relation relation, const std::string& rule, const std::string& to);
 std::string setText(std::string_view item, std::string_view value);
 std::string valueText(const Value& value);  // as the attribute `value` holds it
 

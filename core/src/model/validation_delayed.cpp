@@ -29,11 +29,13 @@ Paths doneByDevices(const SimplexTree& tree) {
     return paths;
 }
 
-// By index. If others delay the same simplex, that is told already.
+// By index, by who acts. If others delay the same simplex, that is told already.
 std::vector<bool> writtenAtOnce(const Structure& structure) {
     std::vector<bool> written(structure.simplexes.size(), false);
     for (const Edge& edge : structure.edges) {
-        if (edge.rule->direction == Direction::Output && !edge.delayed) written[edge.target] = true;
+        const bool isActive = structure.simplexes[edge.owner].role == Role::Active;
+        if (isActive && edge.rule->direction == Direction::Output && !edge.delayed)
+            written[edge.target] = true;
     }
     return written;
 }
@@ -53,8 +55,10 @@ void report(const Checked& checked, const Simplex& owner, const ResolvedRelation
     const std::string& path = written.target->path();
     const auto names = itemsWithSafe(written.target->type());
     if (names.empty()) return;
+    Simplex::Relation atOnce = *written.relation;
+    atOnce.delayed = false;
     const std::string undo = rule.delayed ? "remove delayed=\"true\" from " + ruleText(owner, rule)
-                                          : "write " + relateText(written.relation->rule, path);
+                                          : "write " + relateText(atOnce);
     checked.report.error(
         owner.path(), finding::delayedSafe, written.relation->place,
         ruleText(owner, rule) + " is delayed, so " + path + " is an observation, and safe of " +

@@ -47,8 +47,9 @@ private:
                info(each.target).role != Role::Active && !info(each.target).remote;
     }
     std::string relateOf(std::uint32_t index, bool delayed) const {
-        return relateText(relations_[index]->rule, relations_[index]->target,
-                          delayed ? "delayed=\"true\"" : "");
+        Simplex::Relation relation = *relations_[index];
+        relation.delayed = delayed;
+        return relateText(relation);
     }
 
     static bool hasSource(const SimplexInfo& target);
@@ -338,12 +339,15 @@ void Flow::checkUnwritten() {
             unwritten.push_back(info(each.target).path);
         }
         if (unwritten.empty()) continue;
+        Simplex::Relation elsewhere = *relations_[at];
+        elsewhere.remote = true;
+        elsewhere.type = info(edge(at).target).layout->type->name;
         checked_.report.error(owner(edge(at)).path(), finding::nobodyWrites, relations_[at]->place,
                               ruleText(owner(edge(at)), rule) + " has onLoss=\"" +
                                   name(rule.onLoss) + "\", but nobody writes " +
                                   listText(unwritten) + ": never changed, never lost",
-                              "add the simplex that writes it; if another agent has it, write " +
-                                  relateText(rule.name, unwritten.front(), "remote=\"true\"") +
+                              "add the simplex that writes it; if another agent has it, remove " +
+                                  unwritten.front() + " here and write " + relateText(elsewhere) +
                                   "; if people set it, give its type a settable item");
     }
 }

@@ -26,8 +26,9 @@ std::size_t commonLevels(const std::string& left, const std::string& right) {
     return static_cast<std::size_t>(std::count(left.begin(), end, '/'));
 }
 
-std::string writeOneOf(const std::string& rule, const std::vector<std::string>& paths) {
-    std::string text = "write " + relateText(rule, paths.front());
+std::string writeOneOf(const Relation& relation, const std::string& rule,
+                       const std::vector<std::string>& paths) {
+    std::string text = "write " + relateText(relation, rule, paths.front());
     if (paths.size() > 1) text += "; there are " + listText(paths);
     return text;
 }
@@ -37,7 +38,8 @@ void checkUnknownRule(const Checked& checked, const Simplex& owner, const Relati
     const std::string nearest = meantRule(checked, owner, relation);
     std::string remedy = "remove it: type " + owner.type().name + " has no rules";
     if (!names.empty()) remedy = "rules of " + owner.type().name + ": " + listText(names);
-    if (!nearest.empty()) remedy = "write " + relateText(nearest, relation.target) + "; " + remedy;
+    if (!nearest.empty())
+        remedy = "write " + relateText(relation, nearest, relation.target) + "; " + remedy;
     checked.report.error(owner.path(), finding::unknownRule, relation.place,
                          "type " + owner.type().name + " has no rule '" + relation.rule + "'",
                          remedy);
@@ -50,9 +52,11 @@ void checkUnknownTarget(const Checked& checked, const Simplex& owner, const Rule
     const std::string nearest = nearestName(relation.target, paths);
     if (!nearest.empty()) paths.insert(paths.begin(), nearest);
     std::string remedy = paths.empty() ? "add a simplex with this path"
-                                       : "write " + relateText(rule.name, paths.front());
+                                       : "write " + relateText(relation, rule.name, paths.front());
     if (rule.direction == Direction::Input) {
-        const std::string remote = relateText(rule.name, relation.target, "remote=\"true\"");
+        Relation elsewhere = relation;
+        elsewhere.remote = true;
+        const std::string remote = relateText(elsewhere, rule.name, relation.target);
         remedy = nearest.empty() ? "if another agent has it, write " + remote +
                                        "; if this one should, " + remedy
                                  : remedy + "; if another agent has it, " + remote;
@@ -70,7 +74,7 @@ void checkTargetType(const Checked& checked, const Simplex& owner, const Rule& r
                          ruleText(owner, rule) + " takes " + article(rule.target) + "; " +
                              target.path() + " is " + article(target.type().name),
                          paths.empty() ? "add a simplex of type " + rule.target + " and relate it"
-                                       : writeOneOf(rule.name, paths));
+                                       : writeOneOf(relation, rule.name, paths));
 }
 
 void checkRemote(const Checked& checked, const Simplex& owner, const Rule& rule,
@@ -103,7 +107,7 @@ void reportTwice(const Checked& checked, const Simplex& owner, const Rule& rule,
     checked.report.error(owner.path(), finding::targetTwice, relation.place,
                          ruleText(owner, rule) + " relates " + relation.target + " a second time",
                          enough || paths.empty() ? "remove this <relate>, or correct its target"
-                                                 : writeOneOf(rule.name, paths));
+                                                 : writeOneOf(relation, rule.name, paths));
 }
 
 // What simplexes of the same type write, this one included: who read it would follow itself.

@@ -117,6 +117,8 @@ bool checkStart(Model& model, const Paths& files, const Paths& plugins) {
         words.emplace_back("--plugin");
         words.push_back(each.string());
     }
+    std::string command = program.filename().string();
+    for (std::size_t i = 1; i < words.size(); ++i) command += " " + words[i];
     const Ended ended = run(words);
     try {
         // What the model alone tells stands in both, and is told once by joinReports().
@@ -125,7 +127,7 @@ bool checkStart(Model& model, const Paths& files, const Paths& plugins) {
     } catch (const Json::exception&) {
         model.report.error("", finding::startRefused, place,
                            program.string() + " " + howItEnded(ended) + " in checking its start",
-                           "cortex-agent " + system.string() + " --validate says the same");
+                           command + " says the same");
         return false;
     }
 }
