@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
@@ -123,6 +124,34 @@ TEST_F(EndOfAProcess, ComesWhilePopulateDoesNotReturn) {
         << output;
     EXPECT_NE(output.find("hangs in populate() of /stuck (NeverReturns)"), std::string::npos)
         << output;
+}
+
+TEST_F(EndOfAProcess, OfCortexValidateIsThatOfTheStartThatItChecks) {
+    setenv("NEVER_RETURNS_FROM", "populate", 1);
+    const std::string tool = CORTEX_BINARY_DIR "/bin/cortex";
+    const pid_t pid = fork();
+    if (pid == 0) {
+        execl(tool.c_str(), "cortex", "validate", system.c_str(), "--plugin",
+              CORTEX_BINARY_DIR "/lib/plugins/never-returns.so", nullptr);
+        _exit(1);
+    }
+    const std::string process = "/proc/" + std::to_string(pid);
+    fs::path program;
+    const auto runs = [&] {
+        std::error_code gone;  // what has ended has no program
+        return fs::read_symlink(program, gone).filename() == "cortex-agent";
+    };
+    EXPECT_TRUE(comesTrue("the start that it checks", [&] {
+        std::ifstream children{process + "/task/" + std::to_string(pid) + "/children"};
+        if (std::string child; children >> child) program = "/proc/" + child + "/exe";
+        return runs();
+    }));
+
+    kill(pid, SIGTERM);
+    int status = 0;
+    waitpid(pid, &status, 0);
+    EXPECT_TRUE(WIFSIGNALED(status));
+    EXPECT_TRUE(comesTrue("its end", [&] { return !runs(); }));
 }
 
 TEST_F(EndOfAProcess, ComesWhileAConstructorOfAPlugInDoesNotReturn) {

@@ -25,7 +25,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <functional>
 #include <iostream>
@@ -36,7 +35,6 @@
 #include <system_error>
 #include <vector>
 
-#include <sys/prctl.h>
 #include <unistd.h>
 
 namespace cortex::toolkit {
@@ -292,10 +290,7 @@ int run(int argc, char** argv) {
         dumpModel(*line);
         return Ended;
     }
-    if (line->validates) {
-        prctl(PR_SET_PDEATHSIG, SIGKILL);  // a plug-in may not return, and who waits may be stopped
-        return printStartFindings(*line) ? Ended : Refused;
-    }
+    if (line->validates) return printStartFindings(*line) ? Ended : Refused;
     std::optional<PatientOutput> out, errors;
     if (!line->checkHooks) {  // which tells what hooks print with the library's own streams
         out.emplace(std::cout, STDOUT_FILENO);

@@ -7,12 +7,13 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <utility>
 
 #include <fcntl.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -38,6 +39,15 @@ std::string readAll(int descriptor) {
     }
 }
 
+// In the new process, which ends with us: a plug-in may never return.
+[[noreturn]] void become(char* const* arguments, int output, pid_t parent) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(EXIT_FAILURE);
+    dup2(output, STDOUT_FILENO);
+    execv(arguments[0], arguments);
+    _exit(errno == ENOENT ? 127 : 126);  // as a shell says it
+}
+
 // Its standard error is ours.
 Ended run(std::vector<std::string> words) {
     std::array<int, 2> ends{};
@@ -45,21 +55,15 @@ Ended run(std::vector<std::string> words) {
     std::vector<char*> arguments;
     for (std::string& each : words) arguments.push_back(each.data());
     arguments.push_back(nullptr);
-    posix_spawn_file_actions_t actions{};
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-    pid_t child = 0;
-    const int error =
-        posix_spawn(&child, arguments.front(), &actions, nullptr, arguments.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    close(ends[1]);
+    const pid_t parent = getpid(), child = fork();
+    if (child == 0) become(arguments.data(), ends[1], parent);
     Ended ended;
-    if (error == 0) {
+    if (child < 0) ended.failure = std::strerror(errno);
+    close(ends[1]);
+    if (child > 0) {
         ended.output = readAll(ends[0]);
         while (waitpid(child, &ended.status, 0) < 0 && errno == EINTR) {
         }
-    } else {
-        ended.failure = std::strerror(error);
     }
     close(ends[0]);
     return ended;
