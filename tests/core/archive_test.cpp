@@ -74,6 +74,24 @@ TEST(Archive, GivesBackEveryKindOfValueThatItTook) {
     EXPECT_EQ(after, full());
 }
 
+TEST(Archive, KeepsHowLongAgoATimeWas) {
+    struct Times {
+        std::int64_t last = 0, next = 0;
+        void keep(Archive& archive) { archive.time(last).time(next); }
+    };
+    Times before{700, 1'300}, after{1, 2};
+    std::vector<std::byte> bytes(saved(before).size());
+    Archive archive{bytes, 1'000};
+    before.keep(archive);
+    ASSERT_EQ(problemOf(after, bytes), "");
+    EXPECT_EQ(after.last, 1) << "a check changes nothing";
+
+    Archive restored{bytes, Archive::Purpose::Restore, 50'000};
+    after.keep(restored);
+    EXPECT_EQ(after.last, 49'700);
+    EXPECT_EQ(after.next, 50'300);
+}
+
 TEST(Archive, SaysWhichValueIsAnother) {
     struct Other {
         double number = 0;

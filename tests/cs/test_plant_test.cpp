@@ -77,6 +77,19 @@ TEST(TestPlant, IsSteppedByHandAndCommanded) {
     EXPECT_EQ(plant.call("/adder", "set", {{"gain", 99.0}}).outcome, Outcome::Rejected);
 }
 
+TEST(TestPlant, RefusesWhatWouldNeverReturnOrBeForgotten) {
+    cs::TestPlant plant{{CORTEX_SOURCE_DIR "/tests/data/cs-rules.xml"}};
+    EXPECT_THROW(plant.step(), Error);
+    EXPECT_THROW(plant.standStill(1), Error);
+    plant.add("/signal", "Signal");
+    plant.start();
+    EXPECT_THROW(plant.add("/late", "Signal"), Error);
+    EXPECT_THROW(plant.standStill(-3), Error);
+    const std::int64_t before = plant.cycle();
+    plant.step();
+    EXPECT_EQ(plant.cycle(), before + 1);
+}
+
 TEST(TestPlant, GoesOnFromWhatAnotherOneSaved) {
     AdderPlant<> saved, fresh;
     saved.run(3, 3);

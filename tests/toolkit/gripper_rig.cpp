@@ -57,7 +57,7 @@ private:
 
 void GripperRig::begin() {
     cluster().addEventSink([told = told_](const Event& event, const Structure&) {
-        if (event.severity != Severity::Warning) return;
+        if (event.severity != Severity::Error) return;
         const std::lock_guard lock{told->mutex};
         told->text += std::string{event.text.view()} + "\n";
     });

@@ -94,7 +94,7 @@ TEST_F(GripperWithStatus, SaysThatNobodyKnowsWhileItIsLostAndAfterwardsWhatItHol
     rig.step();
     EXPECT_EQ(rig.object(), GripperRig::Lost);
     EXPECT_TRUE(rig.told().ends_with(
-        "\nwhether the work piece is still held is not known: the gripper is lost\n"))
+        "whether the work piece is still held is not known: the gripper is lost\n"))
         << rig.told();
     rig.step(500);
     EXPECT_EQ(rig.object(), GripperRig::StoppedClosing);

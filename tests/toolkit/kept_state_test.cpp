@@ -2,6 +2,8 @@
 #include "recipes.hpp"
 
 #include <set>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -10,12 +12,14 @@ namespace {
 
 constexpr std::int64_t runOn = 300;  // cycles
 
-// One plant with the class as `/it`, Active, and its history up to cycle `runUp`.
+// One plant with the class as `/it`, Active, and its history up to cycle `runUp`. It was there for
+// `age` cycles before.
 class Plant : public Rig {
 public:
-    Plant(const Recipe& recipe, double past) : recipe_{recipe} {
+    Plant(const Recipe& recipe, double past, std::int64_t age = 0) : recipe_{recipe}, age_{age} {
         recipe.build(*this);
         start();
+        step(age);
         runTo(startedIn(past), past);
         cluster().send("/rig", "startup", {{"prefix", std::string{"/"}}});
         runTo(runUp, past);
@@ -34,13 +38,14 @@ public:
 
 private:
     void runTo(std::int64_t end, double past) {
-        while (cycle() < end) {
-            recipe_.feed(*this, cycle() + 1, past);
+        while (cycle() < age_ + end) {
+            recipe_.feed(*this, cycle() - age_ + 1, past);
             step();
         }
     }
 
     const Recipe& recipe_;
+    std::int64_t age_;
 };
 
 class KeptState : public testing::TestWithParam<Recipe> {};
@@ -69,6 +74,31 @@ TEST_P(KeptState, IsMissedWhereItIsNotRestored) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfEachClass, KeptState, testing::ValuesIn(recipes()),
+                         [](const auto& each) { return each.param.type; });
+
+class KeptTimes : public testing::TestWithParam<Recipe> {};
+
+// Whose clock shows another time.
+TEST_P(KeptTimes, MakeASimplexOfAnOlderPlantGoOnBitForBit) {
+    Plant saved{GetParam(), 1}, older{GetParam(), 2, 260};
+
+    older.restore(saved.save());
+
+    EXPECT_EQ(saved.goesOnOtherwiseThan(older), "");
+    EXPECT_EQ(saved.save().kept.at("/it"), older.save().kept.at("/it"));
+}
+
+// But for those that read how old a demand is, which stands in tables, or count cycles of a
+// hand-over.
+std::vector<Recipe> withoutOtherTimes() {
+    const std::set<std::string> others{"AxisControllerSelector", "Ds402AxisProcessor",
+                                       "ProcessorSelector"};
+    std::vector<Recipe> all = recipes();
+    std::erase_if(all, [&](const Recipe& each) { return others.contains(each.type); });
+    return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(OfEachClass, KeptTimes, testing::ValuesIn(withoutOtherTimes()),
                          [](const auto& each) { return each.param.type; });
 
 TEST(KeptStateOfTheToolkit, IsTriedForEveryClass) {

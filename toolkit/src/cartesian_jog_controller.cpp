@@ -388,8 +388,9 @@ Outcome CartesianJogController::halt(Call&) {
 
 void CartesianJogController::keep(Archive& archive) {
     AxisController::keep(archive);
-    archive.version("CartesianJogController", 2);
-    archive & direction_ & aim_ & pace_ & mostPace_ & usedFrame_ & now_ & held_;
+    archive.version("CartesianJogController", 3);
+    archive & direction_ & aim_ & pace_ & mostPace_ & usedFrame_ & held_;
+    archive.time(now_);
     toolkit::keep(archive, elbow_);
 }
 

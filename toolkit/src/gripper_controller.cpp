@@ -156,7 +156,7 @@ void GripperController::loopEnd(const Tick&) {
     if (why.view().empty()) return;
     holds_ = false;
     object_ = Lost;
-    event(Severity::Warning, why);
+    event(Severity::Error, why);
 }
 
 // --- what is between the jaws -----------------------------------------------------------------
@@ -170,7 +170,7 @@ void GripperController::tell(std::int64_t object) {
     }
     if (!holds_ || (object != AtDemand && std::abs(position_ - metAt_) <= giveWay)) return;
     holds_ = false;
-    event(Severity::Warning,
+    event(Severity::Error,
           EventText{"the work piece was lost at an opening of "} << position_.get() << " m");
 }
 

@@ -95,8 +95,8 @@ void HandsetPlayback::loopEnd(const Tick&) {
 }
 
 void HandsetPlayback::keep(Archive& archive) {
-    archive.version("HandsetPlayback", 1);
-    archive & startedAt_;
+    archive.version("HandsetPlayback", 2);
+    archive.time(startedAt_);
     toolkit::keep(archive, pose_);
     toolkit::keep(archive, velocity_);
 }

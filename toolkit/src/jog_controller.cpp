@@ -229,8 +229,9 @@ Outcome JogController::setMode(Call& call) {
 
 void JogController::keep(Archive& archive) {
     AxisController::keep(archive);
-    archive.version("JogController", 4);
-    archive & motions_ & now_ & running_ & interrupted_;
+    archive.version("JogController", 5);
+    archive & motions_ & running_ & interrupted_;
+    archive.time(now_);
 }
 
 }  // namespace cortex::toolkit

@@ -25,8 +25,8 @@ void SineController::stateActive(const Tick& tick) {
 }
 
 void SineController::keep(Archive& archive) {
-    archive.version("SineController", 1);
-    archive & startedAt_;
+    archive.version("SineController", 2);
+    archive.time(startedAt_);
 }
 
 }  // namespace cortex::toolkit

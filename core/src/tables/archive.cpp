@@ -86,6 +86,13 @@ std::uint16_t Archive::version(std::string_view className, std::uint16_t number)
     return found.version;
 }
 
+Archive& Archive::time(std::int64_t& value) {
+    std::int64_t ago = now_ - value;
+    numbers(&ago, 1);
+    if (purpose_ == Purpose::Restore && !problem_) value = now_ - ago;
+    return *this;
+}
+
 void Archive::finish() {
     if (problem_ || !reads() || size_ == saved_.size()) return;
     begin() << "more was saved than it keeps";

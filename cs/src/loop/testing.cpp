@@ -50,6 +50,7 @@ struct TestPlant::Implementation {
     std::string name;
     ClusterCS cluster;
     ManualTrigger* trigger = nullptr;
+    bool started = false;
 
     template <class Function>
     void forEachActive(const Function& function) {
@@ -86,6 +87,8 @@ void TestPlant::add(const std::string& path, const std::string& type, const Pair
 }
 
 void TestPlant::add(SystemDescription::SimplexEntry simplex) {
+    if (implementation_->started)
+        throw Error(simplex.path + ": a plant that was started takes no more simplexes");
     implementation_->system.simplexes.push_back(std::move(simplex));
 }
 
@@ -97,12 +100,19 @@ void TestPlant::start() {
     cluster().useClasses(classes());
     ClusterTesting::judgeAsPart(cluster());
     cluster().start();
+    implementation_->started = true;
     step();
 }
 
-void TestPlant::step(std::int64_t cycles) { implementation_->trigger->step(cycles); }
+void TestPlant::step(std::int64_t cycles) {
+    if (!implementation_->started) throw Error("a plant steps after start()");
+    implementation_->trigger->step(cycles);
+}
 
 void TestPlant::standStill(std::int64_t periods) {
+    if (!implementation_->started) throw Error("a plant stands still after start()");
+    if (periods < 0)
+        throw Error("a plant stands still for 0 periods or more, not " + std::to_string(periods));
     ClusterTesting::playLate(*implementation_->trigger, periods);
     step();
 }

@@ -63,7 +63,7 @@ std::vector<std::byte> SimplexCS::savedState() {
     Archive measured;
     keep(measured);
     std::vector<std::byte> bytes(measured.size());
-    Archive archive{bytes};
+    Archive archive{bytes, runtime().nominalTime()};
     keep(archive);
     requireFit(*this, archive, "keep() hands over more than before");
     return bytes;
@@ -75,7 +75,7 @@ void SimplexCS::restoreState(std::span<const std::byte> saved) {
     keep(check);
     check.finish();
     requireFit(*this, check, "nothing was restored");
-    Archive archive{saved, Archive::Purpose::Restore};
+    Archive archive{saved, Archive::Purpose::Restore, runtime().nominalTime()};
     keep(archive);
 }
 

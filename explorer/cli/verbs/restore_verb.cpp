@@ -38,7 +38,6 @@ struct Change {
     std::string path;
     Arguments arguments;
     comms::CommandAnswer answer;
-    bool part = false;
 };
 
 struct Plan {
@@ -76,11 +75,10 @@ public:
         }
         plan_.keeps.push_back(found->structure);
         const CommandTable table = commandTable(found->type());
-        Change change{saved.path, {}, {}, false};
+        Change change{saved.path, {}, {}};
         for (const SavedItem& item : saved.items) add(*found, *image, table, item, change);
-        const std::vector<Arguments> parts = setParts(change.arguments);
-        for (const Arguments& each : parts)
-            plan_.changes.push_back({saved.path, each, {}, parts.size() > 1});
+        for (const Arguments& each : setParts(change.arguments))
+            plan_.changes.push_back({saved.path, each, {}});
     }
 
 private:
@@ -212,9 +210,8 @@ Exit apply(Live& live, Plan& plan) {
     return exit;
 }
 
-// "/c"; of a part, or of one item, "/c.gain".
+// "/c.gain, /c.offset": what is refused is refused with all that goes with it.
 std::string whatChanges(const Change& change) {
-    if (!change.part && change.arguments.size() > 1) return change.path;
     std::vector<std::string> items;
     for (const auto& [name, value] : change.arguments) items.push_back(change.path + "." + name);
     return joined(items);

@@ -74,7 +74,7 @@ void Watchdog::stateActive(const Tick& tick) {
 }
 
 void Watchdog::keep(Archive& archive) {
-    archive.version("Watchdog", 1);
+    archive.version("Watchdog", 2);
     archive & watched_;
 }
 

@@ -25,7 +25,7 @@ private:
         double last = 0;
         std::int64_t changedAt = 0;  // ns
 
-        void keep(Archive& archive) { archive & last & changedAt; }
+        void keep(Archive& archive) { (archive & last).time(changedAt); }
     };
     void populate() override;
     bool stateStartingUp(const Tick& tick) override;

@@ -38,10 +38,12 @@ public:
 
     // Measures.
     Archive() = default;
-    // Saves into `room`.
-    explicit Archive(std::span<std::byte> room) : purpose_{Purpose::Save}, room_{room} {}
+    // Saves into `room`. `now`, of this and the next: nominal time of the last cycle, in ns.
+    explicit Archive(std::span<std::byte> room, std::int64_t now = 0)
+        : purpose_{Purpose::Save}, room_{room}, now_{now} {}
     // Checks or restores what was saved.
-    Archive(std::span<const std::byte> saved, Purpose purpose) : purpose_{purpose}, saved_{saved} {}
+    Archive(std::span<const std::byte> saved, Purpose purpose, std::int64_t now = 0)
+        : purpose_{purpose}, saved_{saved}, now_{now} {}
 
     Purpose purpose() const { return purpose_; }
     // Bytes that were handed over so far.
@@ -60,6 +62,9 @@ public:
     Archive& operator&(T& value) CORTEX_REALTIME {
         return numbers(&value, 1);
     }
+    // A time as Tick::nominalTime, in ns. The clock of another plant shows another time, so what is
+    // kept is how long ago it was.
+    Archive& time(std::int64_t& value) CORTEX_REALTIME;
     template <KeptStruct T>
     Archive& operator&(T& value) CORTEX_REALTIME {
         value.keep(*this);
@@ -124,6 +129,7 @@ private:
     std::span<std::byte> room_;
     std::span<const std::byte> saved_;
     std::size_t size_ = 0;
+    std::int64_t now_ = 0;
     std::string_view class_;
     int place_ = 0;  // of the field in its class, from 1
     std::optional<EventText> problem_;

@@ -34,7 +34,9 @@ public:
         if (ended_) last_ = now;
         until_ = now;
     }
-    void keep(Archive& archive) CORTEX_REALTIME { archive & last_ & hold_ & until_ & ended_; }
+    void keep(Archive& archive) CORTEX_REALTIME {
+        archive.time(last_).time(until_) & hold_ & ended_;
+    }
 
 private:
     std::int64_t last_ = 0, hold_ = 0;  // of the last command
