@@ -11,6 +11,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string_view>
+#include <thread>
 
 #include <sys/socket.h>
 #include <unistd.h>
@@ -48,21 +49,22 @@ public:
             newest_.emplace(octets.begin(), octets.begin() + size);
         }
     }
-    void sendToAll(const Datagram& datagram) const {
+    enum Port { Discovery, Values };
+    void sendToAll(const Datagram& datagram, Port port = Discovery) const {
         for (int number = 0; number + 1 < portsAsked; ++number) {
-            const sockaddr_in to = portOf(number);
+            const sockaddr_in to = portOf(number, port);
             sendto(socket_, datagram.data(), datagram.size(), 0,
                    reinterpret_cast<const sockaddr*>(&to), sizeof to);
         }
     }
 
 private:
-    static sockaddr_in portOf(int participant) {
+    static sockaddr_in portOf(int participant, Port port = Discovery) {
         sockaddr_in address{};
         address.sin_family = AF_INET;
         address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-        address.sin_port =
-            htons(static_cast<std::uint16_t>(7410 + 250 * test::ownDomain() + 2 * participant));
+        address.sin_port = htons(
+            static_cast<std::uint16_t>(7410 + 250 * test::ownDomain() + 2 * participant + port));
         return address;
     }
 
@@ -131,6 +133,49 @@ TEST(ParticipantsThatLoseOneAnother, MeetAgainAlsoWhereAHeartbeatCameFirst) {
         writer->write(Presence{});
         return !inbox.elements().empty();
     }));
+}
+
+// Somebody counts ahead in its name, in steps that any writer takes that lost some.
+TEST(ParticipantsThatLoseOneAnother, SayThatTheySkipWhatOneWritesAndANewReaderHearsIt) {
+    constexpr std::uint32_t firstWriter = 0x00000102;
+    Forger forger;
+    Participant one{loopback(), "one-that-speaks"}, other{loopback(), "other"};
+    Inbox<Presence> inbox;
+    const auto writer = one.writer<Presence>(topics::presence);
+    const Topic asAgents{topics::presence.name, Qos::Cycle};
+    auto reader = other.reader<Presence>(asAgents, inbox.push());
+    const auto hears = [&] {
+        inbox.take();
+        return comesTrue([&] {
+            writer->write(Presence{});
+            return !inbox.elements().empty();
+        });
+    };
+    ASSERT_TRUE(hears());
+    std::optional<Datagram> announcement;
+    ASSERT_TRUE(comesTrue([&] {
+        one.announce();
+        return (announcement = forger.heard("one-that-speaks")).has_value();
+    }));
+    const Datagram header(announcement->begin(), announcement->begin() + 20);
+    EXPECT_FALSE(reader->isDeaf());
+
+    const Datagram keyAndRest = datagrams::parameter(0x70, Datagram(16, 5)) + datagrams::endOfList +
+                                Datagram{0, 1, 0, 0, 7, 7, 7, 7};
+    for (std::int64_t number = 2; number < 3'000; number += 3) {
+        forger.sendToAll(header + datagrams::data(number, firstWriter, 6, keyAndRest),
+                         Forger::Values);
+        std::this_thread::sleep_for(std::chrono::microseconds{100});  // so that few are lost
+    }
+    EXPECT_TRUE(comesTrue([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds{20});
+        writer->write(Presence{});
+        return reader->isDeaf();
+    }));
+
+    reader = other.reader<Presence>(asAgents, inbox.push());
+    EXPECT_TRUE(hears());
+    EXPECT_FALSE(reader->isDeaf());
 }
 
 }  // namespace

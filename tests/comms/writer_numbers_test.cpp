@@ -174,5 +174,47 @@ TEST_F(WriterNumbersTest, ARunEndsWhereItsWriterGoesOn) {
     }
 }
 
+// Each in steps that pass, 4 numbers at a time.
+void creep(WriterNumbers& numbers, const WriterGuid& writer, std::int64_t& forged,
+           std::int64_t now) {
+    forged += 4;
+    ASSERT_TRUE(numbers.admits(writer, forged, 0, now));
+}
+
+TEST(WriterNumbers, TellsThatAWriterIsSkippedWhereSomebodyCreptAheadOfIt) {
+    for (const std::int64_t ahead : {40, 40'000}) {  // also where it counts as met anew
+        WriterNumbers numbers;
+        const WriterGuid writer{1};
+        std::int64_t now = second, number = 100, forged = number;
+        ASSERT_TRUE(numbers.admits(writer, number, 0, now));
+        while (forged < number + ahead) creep(numbers, writer, forged, now += ms);
+
+        const std::int64_t over = now;
+        std::int64_t told = 0;
+        for (int i = 0; i < 50 && told == 0; ++i) {
+            ASSERT_TRUE(numbers.admits(writer, ++number % 2 == 0 ? number : number - 1, 0,
+                                       now += 100 * ms));
+            if (numbers.areSkipped(writer, now)) told = now;
+        }
+        EXPECT_GE(told - over, 3 * second) << ahead;
+        EXPECT_LE(told - over, 4 * second) << ahead;
+        EXPECT_FALSE(numbers.areSkipped(writer, now + 2 * second)) << "it goes on no more";
+        EXPECT_FALSE(numbers.areSkipped({2}, now)) << "another one";
+    }
+}
+
+TEST(WriterNumbers, TellsOfNoTrueWriterThatItIsSkipped) {
+    for (unsigned seed = 0; seed < 60; ++seed) {
+        Network network{seed};
+        WriterNumbers numbers;
+        const WriterGuid writer{1};
+        for (const Arrival& each :
+             network.sends(std::min<std::int64_t>(20 * network.rate, 20'000))) {
+            numbers.admits(writer, each.number, each.saying, each.time);
+            ASSERT_FALSE(numbers.areSkipped(writer, each.time)) << network.text();
+        }
+    }
+}
+
 }  // namespace
 }  // namespace cortex::comms::rtps

@@ -253,8 +253,15 @@ void AgentThread::step() {
     meet(now);
     const std::uint32_t others = peers_.agents() + (silent_ ? 1 : 0);
     const bool moved = network_.look(others, links_.anyUnbound(), now);
-    const bool hearsAny = peers_.heard() > 1;
-    if (rejoin_.isDue(hearsAny, participant_.findsUnproven(), now) || moved) joinAnew();
+    const bool isDeaf = presenceIn_->isDeaf(), hearsAny = peers_.heard() > 1 && !isDeaf;
+    if (rejoin_.isDue(hearsAny, participant_.findsUnproven() || isDeaf, now) || moved) {
+        if (isDeaf)
+            self_.event(Severity::Warning, self_.simplex,
+                        "somebody wrote in the name of others, so what these write is skipped; the "
+                        "network is joined anew",
+                        EventKind::Loss);
+        joinAnew();
+    }
     if (links_.askAgain(now)) feed(now);
     if (links_.anyUnbound()) {
         const std::uint32_t found = presenceIn_->writers() + participant_.pending();

@@ -191,6 +191,11 @@ std::uint32_t Reader<M>::writers() const {
 }
 
 template <class M>
+bool Reader<M>::isDeaf() const {
+    return impl_->receiver.isDeaf(impl_->gate->filter);
+}
+
+template <class M>
 std::uint32_t Reader<M>::unheard() const {
     return impl_->receiver.unheard(impl_->gate->filter);
 }

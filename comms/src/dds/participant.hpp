@@ -47,6 +47,8 @@ public:
     // Participants that write it, without those that are silent.
     std::uint32_t writers() const;
     std::uint32_t unheard() const;  // of those: nothing of them was passed on
+    // One of them was heard and is no more, though it goes on: this reader skips what it writes.
+    bool isDeaf() const;
 
 private:
     friend class Participant;

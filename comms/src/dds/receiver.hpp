@@ -12,8 +12,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <set>
+#include <span>
 #include <utility>
 
 #include <fastdds/dds/subscriber/DataReader.hpp>
@@ -51,7 +53,8 @@ public:
         if (status.current_count_change >= 0) return;
         if (const auto known = writers_.find(participant); known != writers_.end()) {
             writers_.erase(known);
-            if (!writers_.contains(participant)) heard_.erase(participant);
+            if (writers_.contains(participant)) return;
+            std::erase_if(heard_, [&](const auto& each) { return isOf(each.first, participant); });
         }
     }
 
@@ -74,9 +77,20 @@ public:
         std::uint32_t count = 0;
         for (auto each = writers_.begin(); each != writers_.end();
              each = writers_.upper_bound(*each)) {
-            if (!heard_.contains(*each) && !filter.isSilent(*each, now)) ++count;
+            if (!isHeard(*each) && !filter.isSilent(*each, now)) ++count;
         }
         return count;
+    }
+
+    // Whether anything that goes on is heard no more: what somebody forged in its name makes Fast
+    // DDS skip it, for as long as this reader exists.
+    bool isDeaf(const rtps::DatagramFilter& filter) const {
+        constexpr std::int64_t silence = 3'000'000'000;  // ns
+        const std::lock_guard lock{matched_};
+        const std::int64_t now = monotonicNow();
+        return std::ranges::any_of(heard_, [&](const auto& each) {
+            return now - each.second >= silence && filter.skips(each.first, now);
+        });
     }
 
     void close() {
@@ -114,16 +128,31 @@ private:
 
     // After it was passed on: whoever counts it as heard finds its sample.
     void hear(const SampleInfo& info) {
-        const rtps::Prefix participant = participantOf(info.publication_handle);
+        const rtps::WriterGuid writer = guidOf(info.publication_handle);
         const std::lock_guard lock{matched_};
-        heard_.insert(participant);
+        heard_[writer] = monotonicNow();
     }
 
-    static rtps::Prefix participantOf(const eprosima::fastrtps::rtps::InstanceHandle_t& writer) {
+    static rtps::WriterGuid guidOf(const eprosima::fastrtps::rtps::InstanceHandle_t& writer) {
         const auto guid = eprosima::fastrtps::rtps::iHandle2GUID(writer);
+        rtps::WriterGuid all;
+        const auto entity = std::ranges::copy(guid.guidPrefix.value, all.begin()).out;
+        std::ranges::copy(guid.entityId.value, entity);
+        return all;
+    }
+    static rtps::Prefix participantOf(const eprosima::fastrtps::rtps::InstanceHandle_t& writer) {
         rtps::Prefix participant;
-        std::ranges::copy(guid.guidPrefix.value, participant.begin());
+        std::copy_n(guidOf(writer).begin(), participant.size(), participant.begin());
         return participant;
+    }
+    static bool isOf(const rtps::WriterGuid& writer, const rtps::Prefix& participant) {
+        return std::ranges::equal(std::span{writer}.first(participant.size()), participant);
+    }
+    bool isHeard(const rtps::Prefix& participant) const {
+        rtps::WriterGuid first{};
+        std::ranges::copy(participant, first.begin());
+        const auto found = heard_.lower_bound(first);
+        return found != heard_.end() && isOf(found->first, participant);
     }
 
     void disposed(const SampleInfo& info) {
@@ -144,9 +173,9 @@ private:
     std::mutex mutex_;
     bool closed_ = false;
     mutable std::mutex matched_;  // of its own: DDS has its locks where it reports a match
-    // By their participants, and which of these were heard; `matched_` guards both.
+    // By their participants; and those that were heard, with the time. `matched_` guards both.
     std::multiset<rtps::Prefix> writers_;
-    std::set<rtps::Prefix> heard_;
+    std::map<rtps::WriterGuid, std::int64_t> heard_;
 };
 
 }  // namespace cortex::comms

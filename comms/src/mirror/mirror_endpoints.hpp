@@ -37,6 +37,7 @@ public:
         return participant_.identity() == nullptr ? participant_.secured() : 0;
     }
     bool findsUnproven() const { return participant_.findsUnproven(); }
+    bool isDeaf() const { return presences_->isDeaf(); }
     SecurityIdentity* identity() const { return participant_.identity(); }
     std::uint64_t malformed() const { return participant_.malformed() + participant_.refused(); }
     std::map<std::string, Refused> refusals() const {

@@ -147,9 +147,9 @@ void MirrorThread::join() {
 }
 
 void MirrorThread::joinAnew(Moment now) {
-    const bool hearsAny = state_.agents.hearsAny();
+    const bool isDeaf = endpoints_->isDeaf(), hearsAny = state_.agents.hearsAny() && !isDeaf;
     const std::int64_t time = now.time_since_epoch().count();
-    if (!rejoin_.isDue(hearsAny, endpoints_->findsUnproven(), time)) return;
+    if (!rejoin_.isDue(hearsAny, endpoints_->findsUnproven() || isDeaf, time)) return;
     try {
         join();
     } catch (const Error&) {

@@ -6,19 +6,20 @@
 
 namespace cortex::comms {
 
-// When to join the network anew, with security. Who hears nobody for longer than a lease drops all
+// When to join the network anew. With security, who hears nobody for longer than a lease drops all
 // others and meets them anew. Those that still hear it answer no second handshake of the same
 // participant, so only another one is met. Who never heard anybody gets more time, as a first
-// handshake may take long.
+// handshake may take long. Without security, somebody may have written in the name of others, so
+// that what they write is skipped; only a new participant hears them again.
 class Rejoin {
 public:
-    // `unproven`: somebody is found who does not prove who it is.
-    bool isDue(bool hearsAny, bool unproven, std::int64_t now) {
+    // `unheard`: somebody is found who does not prove who it is, or is skipped.
+    bool isDue(bool hearsAny, bool unheard, std::int64_t now) {
         if (hearsAny) {
             pause_ = shortest;
             due_ = now;
         }
-        if (hearsAny || !unproven) return false;
+        if (hearsAny || !unheard) return false;
         if (due_ == never) due_ = now + shortest;
         if (now < due_) return false;
         due_ = now + pause_;

@@ -283,6 +283,11 @@ bool DatagramFilter::isSilent(const Prefix& participant, std::int64_t now) const
     return participants_.isSilent(participant, now);
 }
 
+bool DatagramFilter::skips(const WriterGuid& writer, std::int64_t now) const {
+    const std::lock_guard lock{mutex_};
+    return numbers_.areSkipped(writer, now);
+}
+
 // Who lost us and meets us anew asks again for the announcements of our endpoints. To Fast DDS 2.9
 // they are acknowledged, and it sends them again only to who asks from number 0 on. Its reader does
 // so only if no heartbeat came first. It must answer, so the final flag goes.

@@ -41,6 +41,9 @@ public:
     // Whether the participant was heard, but not for a while.
     bool isSilent(const Prefix& participant, std::int64_t now) const;
 
+    // Whether Fast DDS skips what this writer says, as others gave greater numbers in its name.
+    bool skips(const WriterGuid& writer, std::int64_t now) const;
+
     // What is sent is noted: nobody can acknowledge more than our writers have written.
     void noteSent(Bytes datagram, std::int64_t now);
 

@@ -17,6 +17,8 @@ constexpr int timesBelow = 32;
 constexpr std::int64_t mostAtOnce = 4096, nsEach = 10'000;
 constexpr std::int64_t second = 1'000'000'000, measuring = 50'000'000, ahead = 100'000'000;  // ns
 
+constexpr std::int64_t skippedFor = 3 * second;  // ns
+
 constexpr int runLength = 8;
 constexpr std::int64_t steady = 30'000'000, longestPause = 50'000'000;  // ns
 constexpr std::int64_t nsEachInRun = 2'500;  // between two of its numbers
@@ -41,9 +43,14 @@ bool WriterNumbers::admits(const WriterGuid& writer, std::int64_t number, std::u
     if (number <= newest) {
         // A writer that is far below again and again was forged before it was met.
         numbers.below = number < newest - farBelow ? numbers.below + 1 : 0;
-        if (numbers.below >= timesBelow) numbers = {.newest = number, .since = now};
+        if (numbers.below >= timesBelow)
+            numbers = {.newest = number,
+                       .since = now,
+                       .reached = numbers.reached,
+                       .belowSince = numbers.belowSince,
+                       .lastBelow = numbers.lastBelow};
         if (number < newest) count(numbers, now);
-        return true;
+        return pass(numbers, number, now);
     }
     const std::int64_t pause = now - known->met;
     const std::int64_t atOnce = std::min(window(numbers), mostAtOnce + pause / nsEach);
@@ -56,7 +63,26 @@ bool WriterNumbers::admits(const WriterGuid& writer, std::int64_t number, std::u
     numbers.below = 0;
     known->met = now;
     count(numbers, now);
+    return pass(numbers, number, now);
+}
+
+// What passes is known to the reader, whatever is forgotten here.
+bool WriterNumbers::pass(Numbers& numbers, std::int64_t number, std::int64_t now) {
+    if (number >= numbers.reached) {
+        if (number > numbers.reached) numbers.belowSince = 0;
+        numbers.reached = number;
+        return true;
+    }
+    if (numbers.belowSince == 0) numbers.belowSince = now;
+    numbers.lastBelow = now;
     return true;
+}
+
+bool WriterNumbers::areSkipped(const WriterGuid& writer, std::int64_t now) const {
+    const auto* const known = writers_.find(writer);
+    if (known == nullptr || known->value.belowSince == 0) return false;
+    const Numbers& numbers = known->value;
+    return numbers.lastBelow - numbers.belowSince >= skippedFor && now - numbers.lastBelow < second;
 }
 
 // Whether a number that is too high passes, as others came near it.

@@ -30,6 +30,10 @@ public:
     bool admits(const WriterGuid& writer, std::int64_t number, std::uint32_t saying,
                 std::int64_t now);
 
+    // Whether a reader of Fast DDS skips what the writer says, as greater numbers came before,
+    // which it did not give: for three seconds all that came were below.
+    bool areSkipped(const WriterGuid& writer, std::int64_t now) const;
+
     // How far the reader may be moved on at once, of `first`: the numbers below are lost or not
     // relevant. Fast DDS counts through them, so a great step is taken in several.
     std::int64_t stepTo(const WriterGuid& writer, std::int64_t first);
@@ -43,15 +47,18 @@ private:
         int length = 0;            // 0: there is none
     };
     struct Numbers {
-        std::int64_t newest;         // that was admitted
-        std::array<Run, 2> runs{};   // one of the writer, one for who forges
-        std::int64_t first = 0;      // to which the reader was moved on
-        int below = 0;               // numbers far below the newest, one after another
-        int arrived = 0;             // numbers other than the newest that passed
-        std::int64_t since = 0;      // monotonic time, ns
-        std::int64_t perSecond = 0;  // of them, measured before that
+        std::int64_t newest;            // that was admitted
+        std::array<Run, 2> runs{};      // one of the writer, one for who forges
+        std::int64_t first = 0;         // to which the reader was moved on
+        int below = 0;                  // numbers far below the newest, one after another
+        int arrived = 0;                // numbers other than the newest that passed
+        std::int64_t since = 0;         // monotonic time, ns
+        std::int64_t perSecond = 0;     // of them, measured before that
+        std::int64_t reached = newest;  // the greatest that ever passed
+        std::int64_t belowSince = 0, lastBelow = 0;  // time; 0: the last one was not below that
     };
 
+    static bool pass(Numbers& numbers, std::int64_t number, std::int64_t now);
     static bool goesOn(Numbers& numbers, Run next, std::int64_t pause);
     static Run& runBefore(Numbers& numbers, const Run& next);
     static void count(Numbers& numbers, std::int64_t now);
