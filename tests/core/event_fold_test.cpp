@@ -174,13 +174,13 @@ TEST_F(EventFoldTest, TellsOneRangeOfAnArrayWhereATextHasNoRoomForEachNumber) {
 TEST_F(EventFoldTest, NeverShowsTheLastNumbersOfARunForAllOfIt) {
     const std::string name(75, 'n');
     for (const char* speed : {"1", "1.125", "-1.25", "1.5"})
-        fold.take(done(name + ": jog(frame=tip, speed=" + speed + "): Done in 1 cycle"), 0);
+        fold.take(done(name + ": jog(frame=tip, axis=9, speed=" + speed + "): Done in 1 cycle"), 0);
     fold.pass(second);
     EXPECT_EQ(told.back(), "3 times within a second: " + name +
                                ": jog(…, numbers -1.25 to 1.5): Done in 1 cycle");
 
     const auto refused = [](const std::string& speed) {
-        return event(("desk for somebody at the window: jog(speed=" + speed +
+        return event(("desk for somebody at the window: jog(axis=2, speed=" + speed +
                       "): Rejected (range), speed is above 0.25 rad/s, as its type says it")
                          .c_str(),
                      EventKind::Refusal);
@@ -188,8 +188,8 @@ TEST_F(EventFoldTest, NeverShowsTheLastNumbersOfARunForAllOfIt) {
     for (const char* speed : {"1", "1.125", "7.25", "1.5"}) fold.take(refused(speed), second + 1);
     fold.pass(3 * second);
     EXPECT_TRUE(told.back().starts_with(
-        "3 times within a second: desk for somebody at the window: jog(…, numbers 1.125 to 7.25): "
-        "Rejected (range), speed is above"))
+        "3 times within a second: desk for somebody at the window: jog(axis=2, speed=1.5 (1.125 to "
+        "7.25)): Rejected (range), speed is above"))
         << told.back();
 }
 

@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 namespace cortex {
 namespace {
@@ -49,10 +52,21 @@ bool isOver(std::int64_t since, std::int64_t now) {
 
 // How the numbers of a repeated command are told beside the last ones.
 enum class Ranges { OfEach, OfArrays, Alone };
-constexpr std::array rangesByLength{Ranges::OfEach, Ranges::OfArrays, Ranges::Alone};
+// The first one for which there is room. `outcome`: how much of what became of it has to fit.
+struct Form {
+    Ranges ranges;
+    std::size_t outcome;
+};
+constexpr std::array forms{Form{Ranges::OfEach, EventText::capacity},
+                           Form{Ranges::OfArrays, EventText::capacity}, Form{Ranges::OfArrays, 24},
+                           Form{Ranges::Alone, 0}};
 
 std::string bracket(const NumberRange& range, std::string_view before) {
     return std::string{" ("}.append(before) + range.least + " to " + range.greatest + ")";
+}
+
+bool areOne(std::span<const NumberRange> ranges) {
+    return std::ranges::all_of(ranges, &NumberRange::isOne);
 }
 
 NumberRange joined(std::span<const NumberRange> ranges) {
@@ -64,15 +78,16 @@ NumberRange joined(std::span<const NumberRange> ranges) {
     return all;
 }
 
-bool areOne(std::span<const NumberRange> ranges) {
-    return std::ranges::all_of(ranges, &NumberRange::isOne);
-}
-
 // "axis=1, speed=0.5 (-0.5 to 0.7)"; of an array "speed=0.5 0 (each -0.5 to 0.7)".
 std::string argumentsWithRanges(std::string_view arguments, std::span<const NumberRange> ranges,
                                 Ranges which) {
-    if (which == Ranges::Alone)
-        return "…, numbers " + joined(ranges).least + " to " + joined(ranges).greatest;
+    if (which == Ranges::Alone) {
+        std::vector<NumberRange> differing;
+        std::ranges::copy_if(ranges, std::back_inserter(differing),
+                             std::not_fn(&NumberRange::isOne));
+        const NumberRange all = joined(differing);
+        return "…, numbers " + all.least + " to " + all.greatest;
+    }
     const std::string words = numberedText(arguments).words;
     const std::string goesOn{' ', numberSign};
     std::string text;
@@ -98,6 +113,11 @@ std::string withRanges(std::string_view last, std::span<const NumberRange> range
     return std::string{last.substr(0, begin)}
         .append(argumentsWithRanges(arguments, ranges, which))
         .append(last.substr(begin + arguments.size()));
+}
+
+std::size_t placeOfOutcome(std::string_view text) {
+    const std::string_view outcome = commandSentence(text)->outcome;
+    return static_cast<std::size_t>(outcome.data() - text.data());
 }
 
 }  // namespace
@@ -195,9 +215,12 @@ void EventFold::tell(const Folded& folded) {
     times << folded.count << timesWithinASecond;
     std::string text{folded.last.text.view()};
     if (!areOne(folded.ranges)) {
-        for (const Ranges which : rangesByLength) {
-            text = withRanges(folded.last.text.view(), folded.ranges, which);
-            if (times.view().size() + text.size() <= EventText::capacity) break;
+        const std::string_view last = folded.last.text.view();
+        const std::size_t behind = last.size() - placeOfOutcome(last);
+        for (const auto& [ranges, outcome] : forms) {
+            text = withRanges(last, folded.ranges, ranges);
+            const std::size_t cut = behind - std::min(behind, outcome);
+            if (times.view().size() + text.size() <= EventText::capacity + cut) break;
         }
     }
     event.text = times << text;
